@@ -1,0 +1,65 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+# Set-up, build, demo and tests on a bare Debian 12, as root or with sudo.
+SHELL := /bin/bash
+.SHELLFLAGS := -eu -o pipefail -c
+.DELETE_ON_ERROR:
+
+PYTHON ?= /usr/bin/python3
+JOBS ?= 2
+BIN := .venv/bin
+STAMPS := build/stamps
+CHECKS := build/checks
+
+KERNEL_FILES := CMakeLists.txt $(shell find kernel -type f)
+PACKAGE_FILES := pyproject.toml $(shell find freecad_tetra -name '*.py')
+CXX_FILES := $(shell find kernel benchmarks -name '*.cpp' -o -name '*.h')
+
+.PHONY: all demo test lint format tidy test-kernel test-python clean
+
+all: $(STAMPS)/install
+
+# Debian packages; only what is missing, so a prepared machine needs no root.
+$(STAMPS)/debian: tools/install_debian.sh
+	mkdir -p $(@D)
+	tools/install_debian.sh
+	touch $@
+
+$(STAMPS)/venv: $(STAMPS)/debian tools/requirements.txt
+	[ -x $(BIN)/python ] || $(PYTHON) -m venv .venv
+	$(BIN)/python -m pip install --quiet --upgrade pip
+	$(BIN)/python -m pip install --quiet -r tools/requirements.txt
+	touch $@
+
+# Editable and incremental: objects stay in build/<tag>, so a changed source costs its own compilation.
+$(STAMPS)/install: $(STAMPS)/venv $(KERNEL_FILES) $(PACKAGE_FILES)
+	CMAKE_BUILD_PARALLEL_LEVEL=$(JOBS) flock build/lock \
+	    $(BIN)/python -m pip install --quiet --no-deps --no-build-isolation --editable .
+	touch $@
+
+demo: $(STAMPS)/install
+	tools/demo.sh
+
+test: lint test-kernel test-python
+
+lint: $(STAMPS)/install
+	tools/lint.sh
+
+format: $(STAMPS)/venv
+	clang-format -i $(CXX_FILES)
+	$(BIN)/ruff check --fix --quiet . || true
+	$(BIN)/ruff format --quiet .
+
+tidy: $(STAMPS)/venv
+	cmake -S . -B $(CHECKS) -G Ninja -DTETRA_BUILD_TESTS=ON -DTETRA_SANITIZE=ON -DTETRA_WERROR=ON
+	clang-tidy -p $(CHECKS) --quiet $$(find kernel/src -name '*.cpp')
+
+test-kernel: $(STAMPS)/venv
+	cmake -S . -B $(CHECKS) -G Ninja -DTETRA_BUILD_TESTS=ON -DTETRA_SANITIZE=ON -DTETRA_WERROR=ON
+	cmake --build $(CHECKS) --parallel $(JOBS)
+	ctest --test-dir $(CHECKS) --output-on-failure --parallel $(JOBS)
+
+test-python: $(STAMPS)/install
+	$(BIN)/python -m pytest tests
+
+clean:
+	rm -rf build .venv

@@ -1,0 +1,14 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// The entry of the Python module: its version, and one call per topic.
+#include <nanobind/nanobind.h>
+
+namespace nb = nanobind;
+
+// One line per topic: `void bind_<topic>(nb::module_& m);`, defined in <topic>.cpp.
+
+NB_MODULE(_tetra_kernel, m) {
+    m.doc() = "Exact decomposition of solids; use it through the package freecad_tetra.";
+    m.def(
+        "version", [] { return TETRA_VERSION; },
+        "Version of the compiled kernel; equals freecad_tetra.__version__.");
+}
