@@ -1,0 +1,319 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""The functions of the package, for any kind of input.
+
+Everything optional (OCP, trimesh, the kernel) is imported by the call that needs it.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping, Sequence
+from os import PathLike, fspath
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from freecad_tetra import brep, kernel
+from freecad_tetra.errors import Defect, InvalidSolid, KernelMissing, TetraError, UnsupportedFormat
+from freecad_tetra.kernel import Progress, Validation
+from freecad_tetra.model import ConvexCells, IntArray, Solid, TetMesh
+
+# A tessellation whose volume strays more than this from the B-rep's is made finer.
+VOLUME_SHARE = 0.01
+RETRIES = 3
+
+
+def as_solid(
+    source: Any,
+    *,
+    linear_deflection: float | None = None,
+    relative_deflection: float = 0.001,
+    angular_deflection: float = 20.0,
+    solid: int | None = None,
+    name: str = "",
+) -> Solid:
+    """Turn any supported input into one triangulated Solid, without validating it.
+
+    Parameters
+    ----------
+    source : path, Solid, shape, trimesh or (vertices, triangles)
+        A shape is a cadquery or build123d object or an OCP ``TopoDS_Shape``.
+    linear_deflection : float, optional
+        Chord height in mm; overrides `relative_deflection`.
+    relative_deflection : float
+        Chord height as a share of the bounding box's diagonal.
+    angular_deflection : float
+        Degrees between neighbouring chords.
+    solid : int, optional
+        1-based number of the one B-rep solid wanted.
+    name : str
+        Name of the result; a file's stem by default.
+
+    Raises
+    ------
+    InvalidSolid, UnreadableFile, UnsupportedFormat, MissingDependency
+    """
+    wanted = _deflection(linear_deflection, relative_deflection, angular_deflection)
+    shape, title = _shape(source)
+    if shape is not None:
+        return brep.tessellate(shape, wanted, name=name or title, only=solid)
+    return _mesh(source, name)
+
+
+def validate(
+    source: Any,
+    *,
+    linear_deflection: float | None = None,
+    relative_deflection: float | None = None,
+    angular_deflection: float = 20.0,
+    solid: int | None = None,
+    progress: Progress | None = None,
+) -> Validation:
+    """Check exactly that an input bounds one or more solids.
+
+    Parameters are those of `as_solid`. A B-rep whose tessellation crosses itself is
+    tessellated finer, up to three times; so is one whose volume is more than 1 % off,
+    when no deflection was asked for. ``result.solid.notes`` tells.
+
+    Returns
+    -------
+    Validation
+        ``defects`` is empty for a valid solid; they are not raised.
+
+    Raises
+    ------
+    InvalidSolid, UnreadableFile, UnsupportedFormat, MissingDependency, KernelMissing, Cancelled
+    """
+    if isinstance(source, Validation):
+        return source
+    wanted = _deflection(linear_deflection, relative_deflection or 0.001, angular_deflection)
+    free = linear_deflection is None and relative_deflection is None
+    _stage(progress, "read")
+    shape, title = _shape(source)
+    if shape is None:
+        return _choose(kernel.validate(_mesh(source, ""), None, progress), solid)
+    return _validate_shape(shape, wanted, free, title, solid, progress)
+
+
+def convex_cells(
+    source: Any,
+    *,
+    method: str = "auto",
+    plain: bool = False,
+    merge: bool = True,
+    flatness: int | None = None,
+    progress: Progress | None = None,
+    **reading: Any,
+) -> ConvexCells:
+    """Partition a solid into convex cells that cover it exactly once.
+
+    Parameters
+    ----------
+    source : see `as_solid`
+    method : {"auto", "bajaj-dey", "fences"}
+    plain : bool
+        Cut each notch by a plane of its own, as in Chazelle's rule.
+    merge : bool
+        Merge neighbours whose union is convex.
+    flatness : int, optional
+        Grid steps within which facets of one plane count as coplanar.
+    progress : callable, optional
+        ``progress(stage, fraction)``; returning False cancels.
+    **reading
+        Deflections and `solid` as in `as_solid`.
+
+    Raises
+    ------
+    InvalidSolid, VerificationFailed, Cancelled, KernelMissing
+        and the errors of `as_solid`.
+    """
+    options: dict[str, Any] = {"method": method, "plain": plain, "merge": merge}
+    if flatness is not None:
+        options["flatness"] = flatness
+    return kernel.convex_cells(validate(source, progress=progress, **reading), options, progress)
+
+
+def tetrahedralize(
+    source: Any,
+    *,
+    method: str = "chazelle-palios",
+    direction: str | Sequence[int] = "auto",
+    pull_off: str = "auto",
+    compact: str = "default",
+    progress: Progress | None = None,
+    **reading: Any,
+) -> TetMesh:
+    """Fill a solid with face-to-face tetrahedra that keep its boundary exactly.
+
+    Parameters
+    ----------
+    source : see `as_solid`
+    method : {"chazelle-palios", "bajaj-dey"}
+    direction : "auto", "x", "y", "z" or three integers
+        Direction of the fences.
+    pull_off : {"auto", "on", "off"}
+    compact : {"default", "max", "off"}
+    progress : callable, optional
+    **reading
+        Deflections and `solid` as in `as_solid`.
+
+    Raises
+    ------
+    InvalidSolid, VerificationFailed, Cancelled, KernelMissing
+        and the errors of `as_solid`.
+    """
+    axis = direction if isinstance(direction, str) else [int(i) for i in direction]
+    options = {"method": method, "direction": axis, "pull_off": pull_off, "compact": compact}
+    return kernel.tetrahedralize(validate(source, progress=progress, **reading), options, progress)
+
+
+def triangulate_polygon(points: Any, loops: Sequence[Any] | None = None) -> IntArray:
+    """Triangulate a planar polygon with holes.
+
+    Parameters
+    ----------
+    points : (n, 2) float64
+    loops : sequence of (k,) int, optional
+        Outer loop first, then holes; by default all points form the outer loop.
+
+    Returns
+    -------
+    (t, 3) int32
+    """
+    flat = np.ascontiguousarray(points, np.float64)
+    return kernel.triangulate_polygon(flat, loops or [np.arange(len(flat), dtype=np.int32)])
+
+
+def place_guards(source: Any, **options: Any) -> Any:
+    """Place guards that see every point of a solid; needs a kernel that has it."""
+    module = kernel.load()
+    if not hasattr(module, "place_guards"):
+        raise KernelMissing("this build of _tetra_kernel has no place_guards")
+    checked = validate(source)
+    surface = checked.surface()
+    return module.place_guards(surface.vertices, surface.triangles, surface.solid_ids, options)
+
+
+def write(result: ConvexCells | TetMesh | Solid, path: str | PathLike[str]) -> Path:
+    """Write a result to a file, whole or not at all; the suffix selects the format."""
+    from freecad_tetra import export
+
+    return export.write(result, path)
+
+
+def _deflection(linear: float | None, relative: float, angular: float) -> brep.Deflection:
+    for value, label in ((linear, "linear"), (relative, "relative"), (angular, "angular")):
+        if value is not None and not (value > 0 and math.isfinite(value)):
+            raise TetraError(f"the {label} deflection must be above zero, not {value}")
+    return brep.Deflection(linear, relative, math.radians(angular))
+
+
+def _stage(progress: Progress | None, stage: str) -> None:
+    if progress is not None and progress(stage, 0.0) is False:
+        from freecad_tetra.errors import Cancelled
+
+        raise Cancelled()
+
+
+def _shape(source: Any) -> tuple[Any | None, str]:
+    """Return (TopoDS_Shape, name) for B-rep inputs, (None, "") for all others."""
+    if isinstance(source, str | PathLike):
+        path = Path(fspath(source))
+        if path.suffix.lower() in brep.SUFFIXES:
+            return brep.read_shape(path), path.stem
+        return None, path.stem
+    return brep.as_shape(source), ""
+
+
+def _mesh(source: Any, name: str) -> Solid:
+    """Return the Solid of a mesh file, a trimesh, a Solid or (vertices, triangles)."""
+    if isinstance(source, Solid):
+        return source
+    if isinstance(source, str | PathLike):
+        from freecad_tetra import io
+
+        return io.read_mesh(fspath(source), split=_split)
+    if hasattr(source, "vertices") and hasattr(source, "faces"):  # trimesh.Trimesh
+        return _arrays(source.vertices, source.faces, name)
+    if isinstance(source, Sequence) and len(source) == 2:
+        return _arrays(source[0], source[1], name)
+    raise UnsupportedFormat(
+        f"cannot make a solid of {type(source).__name__}",
+        "pass a path, a CAD shape, a trimesh or (vertices, triangles)",
+    )
+
+
+def _arrays(vertices: Any, triangles: Any, name: str) -> Solid:
+    from freecad_tetra.io import weld
+
+    solid = Solid(vertices, triangles, name=name)
+    return Solid(solid.vertices, weld.merged(solid.vertices, solid.triangles), name=name)
+
+
+def _split(points: Any, loop: Any) -> IntArray:
+    """Triangulate one non-convex polygon of a mesh file."""
+    return kernel.triangulate_polygon(points, [loop])
+
+
+def _validate_shape(
+    shape: Any,
+    wanted: brep.Deflection,
+    free: bool,
+    name: str,
+    only: int | None,
+    progress: Progress | None,
+) -> Validation:
+    """Validate a tessellation, finer while it crosses itself or strays in volume."""
+    found: Validation | None = None
+    for step in range(RETRIES + 1):
+        _stage(progress, "tessellate")
+        solid = brep.tessellate(shape, wanted, name=name, only=only)
+        reason = _why_finer(found, free) if found is not None else ""
+        solid = _noted(solid, step, reason or (found.solid.notes.get("retried_for", "") if found else ""))
+        found = kernel.validate(solid, None, progress)
+        if not _why_finer(found, free):
+            break
+        wanted = wanted.finer()
+    assert found is not None
+    return found
+
+
+def _noted(solid: Solid, retries: int, reason: str) -> Solid:
+    notes: Mapping[str, Any] = {**solid.notes, "retries": retries}
+    if retries:
+        notes = {**notes, "retried_for": reason}
+    return Solid(
+        solid.vertices, solid.triangles, solid.face_ids, solid.face_names, solid.name,
+        solid.solid_ids, notes,
+    )  # fmt: skip
+
+
+def _why_finer(found: Validation, free: bool) -> str:
+    """Return why a finer tessellation is wanted, or an empty string."""
+    if found.crosses_itself():
+        return "self_crossing"
+    volume = found.solid.notes.get("brep_volume", 0.0)
+    if free and not found.defects and volume > 0:
+        if abs(found.solid.volume() / volume - 1) > VOLUME_SHARE:
+            return "volume"
+    return ""
+
+
+def _choose(found: Validation, number: int | None) -> Validation:
+    """Return the validation of one solid of a mesh, `number` 1-based."""
+    if number is None or found.defects:
+        return found
+    count = int(found.solid_id.max()) + 1 if len(found.solid_id) else 0
+    if not 1 <= number <= count:
+        raise InvalidSolid(
+            [Defect("no_solid", f"there is no solid {number}, the mesh has {count}")],
+            next_step=f"choose a solid from 1 to {count}",
+        )
+    keep = found.triangle_source[found.solid_id == number - 1]
+    solid = found.solid
+    part = Solid(
+        solid.vertices, solid.triangles[keep], solid.face_ids[keep], solid.face_names, solid.name,
+        None, solid.notes,
+    )  # fmt: skip
+    return kernel.validate(part)

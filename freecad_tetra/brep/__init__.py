@@ -1,0 +1,161 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""B-rep models become triangulated solids; OCP is imported on first use only.
+
+FreeCAD brings an OpenCascade of its own, and two of them in one process crash: inside
+FreeCAD this package refuses to load OCP.
+"""
+
+from __future__ import annotations
+
+import sys
+from collections.abc import Callable
+from dataclasses import dataclass
+from os import PathLike
+from typing import Any
+
+from freecad_tetra.errors import MissingDependency, TetraError
+from freecad_tetra.model import Solid
+
+SUFFIXES = (".step", ".stp", ".brep", ".brp", ".iges", ".igs", ".fcstd")
+
+
+@dataclass(frozen=True)
+class Deflection:
+    """How far the triangles may stray from the B-rep.
+
+    Attributes
+    ----------
+    linear : float or None
+        Chord height in mm; None means `relative`.
+    relative : float
+        Chord height as a share of the bounding box's diagonal.
+    angular : float
+        Angle between neighbouring chords, radians.
+    """
+
+    linear: float | None = None
+    relative: float = 0.001
+    angular: float = 0.3490658503988659  # 20 degrees
+
+    def finer(self, factor: float = 0.5) -> Deflection:
+        """Return the deflection scaled down by `factor`."""
+        linear = None if self.linear is None else self.linear * factor
+        return Deflection(linear, self.relative * factor, self.angular * factor)
+
+
+def _require_ocp() -> None:
+    if "FreeCAD" in sys.modules:
+        raise TetraError(
+            "OCP cannot be loaded inside FreeCAD (two OpenCascades in one process)",
+            "pass a Part.Shape through freecad_tetra.workbench, or use the command line",
+        )
+    try:
+        import OCP.TopoDS  # noqa: F401
+    except ImportError as error:
+        raise MissingDependency("OCP", "reading B-rep models", "cadquery-ocp") from error
+
+
+def read_shape(path: str | PathLike[str]) -> Any:
+    """Read a STEP, BREP, IGES or FCStd file into one TopoDS_Shape, lengths in mm.
+
+    Raises
+    ------
+    UnreadableFile, UnsupportedFormat, MissingDependency
+    """
+    _require_ocp()
+    from freecad_tetra.brep import read
+
+    return read.read_shape(path)
+
+
+def as_shape(value: Any) -> Any | None:
+    """Return the TopoDS_Shape inside a cadquery, build123d or OCP object, or None."""
+    if hasattr(value, "toCompound"):  # cadquery Assembly
+        value = value.toCompound()
+    if hasattr(value, "vals") and callable(value.vals):  # cadquery Workplane
+        shapes = [as_shape(v) for v in value.vals()]
+        shapes = [s for s in shapes if s is not None]
+        if not shapes:
+            return None
+        _require_ocp()
+        from freecad_tetra.brep import read
+
+        return read.compound(shapes)
+    while hasattr(value, "wrapped"):
+        value = value.wrapped
+    if value is not None and hasattr(value, "TShape") and hasattr(value, "ShapeType"):
+        return value
+    if hasattr(value, "part") and value is not None:  # build123d BuildPart
+        return as_shape(value.part)
+    return None
+
+
+def tessellate(
+    shape: Any,
+    deflection: Deflection | None = None,
+    *,
+    name: str = "",
+    only: int | None = None,
+) -> Solid:
+    """Tessellate all solids of a TopoDS_Shape once, welded through shared edges.
+
+    Parameters
+    ----------
+    shape : TopoDS_Shape
+    deflection : Deflection
+    name : str
+    only : int, optional
+        1-based number of the one solid wanted.
+
+    Returns
+    -------
+    Solid
+        One face id per triangle (``Face1`` is id 0), one solid id per triangle.
+
+    Raises
+    ------
+    InvalidSolid
+        ``no_solid`` when the shape holds none, ``no_mesh`` when a face has no triangles.
+    """
+    _require_ocp()
+    from freecad_tetra.brep import mesh
+
+    return mesh.tessellate(shape, deflection or Deflection(), name, only)
+
+
+def tessellate_valid(
+    shape: Any,
+    check: Callable[[Solid], bool],
+    deflection: Deflection | None = None,
+    *,
+    name: str = "",
+    only: int | None = None,
+    steps: int = 3,
+) -> Solid:
+    """Tessellate, and again finer while `check` says that the surface crosses itself.
+
+    Parameters
+    ----------
+    check : callable
+        ``check(solid)`` is True when the surface crosses itself.
+    steps : int
+        How often to refine.
+
+    Returns
+    -------
+    Solid
+        ``notes["retries"]`` tells how often it was refined.
+    """
+    wanted = deflection or Deflection()
+    solid = tessellate(shape, wanted, name=name, only=only)
+    for step in range(steps):
+        if not check(solid):
+            break
+        wanted = wanted.finer()
+        finer = tessellate(shape, wanted, name=name, only=only)
+        notes = {**finer.notes, "retries": step + 1, "retried_for": "self_crossing"}
+        solid = Solid(
+            finer.vertices, finer.triangles, finer.face_ids, finer.face_names, name,
+            finer.solid_ids, notes,
+        )  # fmt: skip
+    return solid

@@ -1,0 +1,344 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""The only door to the compiled module: plain data in, frozen results or typed errors out.
+
+The kernel is imported on first use, so that reading, writing and the rest of the package
+work without it. It counts in triangles of its own numbering; here they are brought back to
+the caller's triangles and to B-rep faces.
+"""
+
+from __future__ import annotations
+
+import importlib
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass, field
+from time import perf_counter
+from typing import Any
+
+import numpy as np
+
+from freecad_tetra._version import __version__
+from freecad_tetra.errors import Cancelled, Defect, InvalidSolid, KernelMissing, VerificationFailed
+from freecad_tetra.model import (
+    ConvexCells,
+    IntArray,
+    Report,
+    Solid,
+    TetMesh,
+    plain,
+)
+
+Progress = Callable[[str, float], "bool | None"]
+
+
+def load() -> Any:
+    """Return the compiled module of this very version.
+
+    Raises
+    ------
+    KernelMissing
+        It is absent, does not load, or is of another version.
+    """
+    try:
+        module = importlib.import_module("_tetra_kernel")
+    except ImportError as error:
+        raise KernelMissing(f"the compiled module _tetra_kernel does not load: {error}") from error
+    found = module.version()
+    if found != __version__:
+        raise KernelMissing(
+            f"_tetra_kernel is version {found}, freecad_tetra is version {__version__}"
+        )
+    return module
+
+
+@dataclass(frozen=True, eq=False)
+class Validation:
+    """What the exact validation says about a solid.
+
+    Attributes
+    ----------
+    solid : Solid
+        As it was given.
+    defects : tuple of Defect
+        Empty for a valid solid.
+    triangles : (m2, 3) int32
+        Oriented outward; what will be decomposed.
+    triangle_source : (m2,) int32
+        Triangle of `solid` that each came from.
+    shell, solid_id : (m2,) int32
+    turned : tuple of int
+        Shells that were inside out.
+    counts : mapping of str to int
+        vertices, facets, notches, shells, solids, genus, contacts ...
+    seconds : float
+    """
+
+    solid: Solid
+    defects: tuple[Defect, ...]
+    triangles: IntArray
+    triangle_source: IntArray
+    shell: IntArray
+    solid_id: IntArray
+    turned: tuple[int, ...] = ()
+    counts: Mapping[str, int] = field(default_factory=dict)
+    seconds: float = 0.0
+
+    def surface(self) -> Solid:
+        """Return the oriented triangles that get decomposed, as a Solid.
+
+        Raises
+        ------
+        InvalidSolid
+            When there are defects.
+        """
+        if self.defects:
+            raise InvalidSolid(self.defects)
+        return Solid(
+            self.solid.vertices,
+            self.triangles,
+            self.solid.face_ids[self.triangle_source],
+            self.solid.face_names,
+            self.solid.name,
+            self.solid_id,
+            self.solid.notes,
+        )
+
+    def crosses_itself(self) -> bool:
+        """Return whether a finer tessellation may help."""
+        return any(d.kind == "self_crossing" for d in self.defects)
+
+
+def validate(
+    solid: Solid,
+    options: Mapping[str, Any] | None = None,
+    progress: Progress | None = None,
+) -> Validation:
+    """Check exactly that `solid` bounds one or more solids; O(m log m).
+
+    Parameters
+    ----------
+    solid : Solid
+    options : mapping, optional
+        Passed to the kernel.
+    progress : callable, optional
+        ``progress(stage, fraction)``; returning False cancels.
+
+    Returns
+    -------
+    Validation
+        With the defects; they are not raised.
+
+    Raises
+    ------
+    KernelMissing, Cancelled
+    """
+    start = perf_counter()
+    given = dict(options or {})
+    if solid.solid_ids is not None:
+        given.setdefault("solid_ids", solid.solid_ids)
+    found = _call("validate", solid, None, solid.vertices, solid.triangles, given, progress)
+    source = np.asarray(found["triangle_source"], np.int32)
+    return Validation(
+        solid=solid,
+        defects=tuple(_defect(d, solid, None) for d in found["defects"]),
+        triangles=np.asarray(found["triangles"], np.int32).reshape(-1, 3),
+        triangle_source=source,
+        shell=np.asarray(found["shell"], np.int32),
+        solid_id=np.asarray(found["solid"], np.int32),
+        turned=tuple(int(i) for i in found.get("turned", ())),
+        counts={str(k): int(v) for k, v in found.get("counts", {}).items()},
+        seconds=perf_counter() - start,
+    )
+
+
+def convex_cells(
+    solid: Solid | Validation,
+    options: Mapping[str, Any] | None = None,
+    progress: Progress | None = None,
+) -> ConvexCells:
+    """Partition a solid into convex cells.
+
+    Parameters
+    ----------
+    solid : Solid or Validation
+        A Solid is validated first.
+    options : mapping, optional
+        ``method`` (auto, bajaj-dey, fences), ``plain``, ``merge``, ``flatness`` (grid steps).
+    progress : callable, optional
+
+    Raises
+    ------
+    InvalidSolid, VerificationFailed, Cancelled, KernelMissing
+    """
+    checked = _validated(solid, progress)
+    start = perf_counter()
+    found = _decompose("convex_cells", checked, options, progress)
+    facet_source, facet_face = _to_caller(checked, found["facet_source"])
+    return ConvexCells(
+        points=found["points"],
+        facet_offsets=found["facet_offsets"],
+        facet_vertices=found["facet_vertices"],
+        cell_offsets=found["cell_offsets"],
+        facet_source=facet_source,
+        facet_face=facet_face,
+        cell_solid=found["cell_solid"],
+        point_source=found["point_source"],
+        face_names=checked.solid.face_names,
+        report=_report(found["report"], checked, perf_counter() - start),
+    )
+
+
+def tetrahedralize(
+    solid: Solid | Validation,
+    options: Mapping[str, Any] | None = None,
+    progress: Progress | None = None,
+) -> TetMesh:
+    """Fill a solid with face-to-face tetrahedra.
+
+    Parameters
+    ----------
+    solid : Solid or Validation
+        A Solid is validated first.
+    options : mapping, optional
+        ``method``, ``direction``, ``pull_off``, ``compact``.
+    progress : callable, optional
+
+    Raises
+    ------
+    InvalidSolid, VerificationFailed, Cancelled, KernelMissing
+    """
+    checked = _validated(solid, progress)
+    start = perf_counter()
+    found = _decompose("tetrahedralize", checked, options, progress)
+    skin_source, skin_face = _to_caller(checked, found["skin_source"])
+    return TetMesh(
+        points=found["points"],
+        tets=found["tets"],
+        skin=found["skin"],
+        skin_face=skin_face,
+        skin_source=skin_source,
+        tet_solid=found["tet_solid"],
+        point_source=found["point_source"],
+        face_names=checked.solid.face_names,
+        report=_report(found["report"], checked, perf_counter() - start),
+    )
+
+
+def triangulate_polygon(points: Any, loops: Sequence[Any]) -> IntArray:
+    """Triangulate a planar polygon with holes, O(n log n).
+
+    Parameters
+    ----------
+    points : (n, 2) float64
+    loops : sequence of (k,) int
+        Outer loop counter-clockwise, holes clockwise; ids into `points`.
+
+    Returns
+    -------
+    (t, 3) int32
+    """
+    module = load()
+    if not hasattr(module, "triangulate_polygon"):
+        raise KernelMissing("this build of _tetra_kernel has no triangulate_polygon")
+    flat = np.ascontiguousarray(points, np.float64)
+    rows = [np.ascontiguousarray(loop, np.int32) for loop in loops]
+    return np.asarray(module.triangulate_polygon(flat, rows), np.int32).reshape(-1, 3)
+
+
+def _validated(solid: Solid | Validation, progress: Progress | None) -> Validation:
+    checked = solid if isinstance(solid, Validation) else validate(solid, None, progress)
+    if checked.defects:
+        raise InvalidSolid(checked.defects)
+    return checked
+
+
+def _decompose(
+    name: str,
+    checked: Validation,
+    options: Mapping[str, Any] | None,
+    progress: Progress | None,
+) -> dict[str, Any]:
+    return _call(
+        name,
+        checked.solid,
+        checked.triangle_source,
+        checked.solid.vertices,
+        checked.triangles,
+        checked.solid_id,
+        dict(options or {}),
+        progress,
+    )
+
+
+def _call(name: str, solid: Solid, source: IntArray | None, *arguments: Any) -> dict[str, Any]:
+    """Call the kernel and turn its exceptions into those of this package."""
+    module = load()
+    function = getattr(module, name, None)
+    if function is None:
+        raise KernelMissing(f"this build of _tetra_kernel has no {name}")
+    try:
+        result: dict[str, Any] = function(*arguments)
+        return result
+    except module.InvalidSolid as error:
+        rows = getattr(error, "defects", None) or _defects_in(error)
+        raise InvalidSolid([_defect(d, solid, source) for d in rows]) from error
+    except module.VerificationFailed as error:
+        raise VerificationFailed(str(error)) from error
+    except module.Cancelled as error:
+        raise Cancelled() from error
+
+
+def _defects_in(error: BaseException) -> list[Mapping[str, Any]]:
+    for argument in error.args:
+        if isinstance(argument, list | tuple) and argument and isinstance(argument[0], Mapping):
+            return list(argument)
+    return [{"kind": "invalid_solid", "message": str(error)}]
+
+
+def _defect(raw: Mapping[str, Any], solid: Solid, source: IntArray | None) -> Defect:
+    """Bring a kernel defect back to the caller's triangles and name their faces."""
+    triangles = [int(t) for t in raw.get("triangles", ())]
+    if source is not None:
+        triangles = [int(source[t]) for t in triangles if 0 <= t < len(source)]
+    known = [t for t in triangles if 0 <= t < len(solid.face_ids)]
+    faces = dict.fromkeys(solid.face_name(int(solid.face_ids[t])) for t in known)
+    return Defect(
+        str(raw["kind"]),
+        str(raw.get("message", "")),
+        tuple(int(v) for v in raw.get("vertices", ())),
+        tuple(triangles),
+        tuple(f for f in faces if f) if solid.face_names else (),
+    )
+
+
+def _to_caller(checked: Validation, source: Any) -> tuple[IntArray, IntArray]:
+    """Map validated triangles to (the caller's triangles, their B-rep faces), -1 kept."""
+    ids = np.asarray(source, np.int64)
+    inner = ids < 0
+    triangle = np.where(inner, -1, checked.triangle_source[np.where(inner, 0, ids)])
+    face = np.where(inner, -1, checked.solid.face_ids[np.where(inner, 0, triangle)])
+    return triangle.astype(np.int32), face.astype(np.int32)
+
+
+_REPORT_FIELDS = ("method", "direction", "counts", "bounds", "volume", "volume_error", "quality",
+                  "repairs", "verdict")  # fmt: skip
+
+
+def _report(raw: Mapping[str, Any], checked: Validation, seconds: float) -> Report:
+    """Gather what validation and kernel told into one report."""
+    raw = plain(raw)
+    known = {k: raw[k] for k in _REPORT_FIELDS if k in raw}
+    known["counts"] = {**checked.counts, **dict(raw.get("counts", {}))}
+    notches = known["counts"].get("notches")
+    if notches is not None:
+        known["bounds"] = {"bajaj_dey": piece_bound(notches), **dict(raw.get("bounds", {}))}
+    spent = {"validate": checked.seconds, **dict(raw.get("seconds", {})), "kernel": seconds}
+    repairs = {"turned_shells": list(checked.turned), **dict(raw.get("repairs", {}))}
+    rest = {k: v for k, v in raw.items() if k not in (*_REPORT_FIELDS, "seconds")}
+    rest["surface"] = plain(checked.solid.notes)
+    return Report(**{**known, "seconds": spent, "repairs": repairs, "details": rest})
+
+
+def piece_bound(notches: int) -> int:
+    """Return r^2/2 + r/2 + 1, the most pieces that r notches can need (Chazelle 1984)."""
+    return notches * (notches + 1) // 2 + 1
+
