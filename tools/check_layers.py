@@ -36,10 +36,10 @@ PYTHON_RANK = {
     "export": 2,
     "fem": 2,
     "api": 3,
-    "__init__": 3,
-    "cli": 4,
-    "__main__": 4,
-    "workbench": 4,
+    "__init__": 4,
+    "cli": 5,
+    "__main__": 5,
+    "workbench": 5,
 }
 # Modules of equal rank see nothing of each other, save for these, which serve all of their rank.
 PYTHON_SHARED = {"_version", "errors"}
