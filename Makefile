@@ -14,7 +14,7 @@ KERNEL_FILES := CMakeLists.txt $(shell find kernel -type f)
 PACKAGE_FILES := pyproject.toml $(shell find freecad_tetra -name '*.py')
 CXX_FILES := $(shell find kernel benchmarks -name '*.cpp' -o -name '*.h')
 
-.PHONY: all demo test lint format tidy test-kernel test-python clean
+.PHONY: all demo test lint format tidy test-kernel test-python benchmark clean
 
 all: $(STAMPS)/install
 
@@ -60,6 +60,14 @@ test-kernel: $(STAMPS)/venv
 
 test-python: $(STAMPS)/install
 	$(BIN)/python -m pytest tests
+
+# Beside CGAL; its package is installed for this target only.
+benchmark: $(STAMPS)/install
+	tools/install_debian.sh libcgal-dev
+	cmake -S . -B build/benchmarks -G Ninja -DTETRA_BUILD_BENCHMARKS=ON
+	cmake --build build/benchmarks --target cgal_cells
+	$(BIN)/python benchmarks/cells_vs_cgal.py --cgal build/benchmarks/benchmarks/cgal_cells \
+	    -o benchmarks/results/cells_vs_cgal.json
 
 clean:
 	rm -rf build .venv

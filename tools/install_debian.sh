@@ -1,6 +1,8 @@
 #!/bin/bash
 # SPDX-License-Identifier: LGPL-2.1-or-later
 # Installs the Debian packages that build, tests and demo need; asks for root only when one is missing.
+#
+# Usage: install_debian.sh [PACKAGE...]   (without arguments the list below)
 set -euo pipefail
 
 packages=(
@@ -11,6 +13,7 @@ packages=(
     libgl1 libglu1-mesa libxrender1 libxcursor1 libxft2 libxinerama1 libxfixes3 libxext6 libsm6
     libice6 libfontconfig1 libgomp1
 )
+[[ $# -eq 0 ]] || packages=("$@")
 
 missing=()
 for package in "${packages[@]}"; do
