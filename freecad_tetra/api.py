@@ -7,7 +7,7 @@ Everything optional (OCP, trimesh, the kernel) is imported by the call that need
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping, Sequence
+from collections.abc import Sequence
 from os import PathLike, fspath
 from pathlib import Path
 from typing import Any
@@ -15,21 +15,31 @@ from typing import Any
 import numpy as np
 
 from freecad_tetra import brep, kernel
-from freecad_tetra.errors import Defect, InvalidSolid, KernelMissing, TetraError, UnsupportedFormat
+from freecad_tetra.errors import (
+    Cancelled,
+    Defect,
+    InvalidSolid,
+    KernelMissing,
+    TetraError,
+    UnsupportedFormat,
+)
 from freecad_tetra.kernel import Progress, Validation
 from freecad_tetra.model import ConvexCells, IntArray, Solid, TetMesh
 
 # A tessellation whose volume strays more than this from the B-rep's is made finer.
 VOLUME_SHARE = 0.01
 RETRIES = 3
+# How much finer (chord height, angle) for each reason: a crossing needs both, a volume that is
+# off comes from chords of thin round walls, where the angle alone is much cheaper.
+FINER = {"self_crossing": (0.5, 0.5), "volume": (1.0, 0.45)}
 
 
 def as_solid(
     source: Any,
     *,
     linear_deflection: float | None = None,
-    relative_deflection: float = 0.001,
-    angular_deflection: float = 20.0,
+    relative_deflection: float | None = None,
+    angular_deflection: float | None = None,
     solid: int | None = None,
     name: str = "",
 ) -> Solid:
@@ -41,10 +51,10 @@ def as_solid(
         A shape is a cadquery or build123d object or an OCP ``TopoDS_Shape``.
     linear_deflection : float, optional
         Chord height in mm; overrides `relative_deflection`.
-    relative_deflection : float
-        Chord height as a share of the bounding box's diagonal.
-    angular_deflection : float
-        Degrees between neighbouring chords.
+    relative_deflection : float, optional
+        Chord height as a share of the bounding box's diagonal, 0.001 by default.
+    angular_deflection : float, optional
+        Degrees between neighbouring chords, 20 by default.
     solid : int, optional
         1-based number of the one B-rep solid wanted.
     name : str
@@ -66,7 +76,7 @@ def validate(
     *,
     linear_deflection: float | None = None,
     relative_deflection: float | None = None,
-    angular_deflection: float = 20.0,
+    angular_deflection: float | None = None,
     solid: int | None = None,
     progress: Progress | None = None,
 ) -> Validation:
@@ -87,8 +97,8 @@ def validate(
     """
     if isinstance(source, Validation):
         return source
-    wanted = _deflection(linear_deflection, relative_deflection or 0.001, angular_deflection)
-    free = linear_deflection is None and relative_deflection is None
+    wanted = _deflection(linear_deflection, relative_deflection, angular_deflection)
+    free = linear_deflection is relative_deflection is angular_deflection is None
     _stage(progress, "read")
     shape, title = _shape(source)
     if shape is None:
@@ -202,17 +212,18 @@ def write(result: ConvexCells | TetMesh | Solid, path: str | PathLike[str]) -> P
     return export.write(result, path)
 
 
-def _deflection(linear: float | None, relative: float, angular: float) -> brep.Deflection:
+def _deflection(
+    linear: float | None, relative: float | None, angular: float | None
+) -> brep.Deflection:
     for value, label in ((linear, "linear"), (relative, "relative"), (angular, "angular")):
         if value is not None and not (value > 0 and math.isfinite(value)):
             raise TetraError(f"the {label} deflection must be above zero, not {value}")
-    return brep.Deflection(linear, relative, math.radians(angular))
+    share = 0.001 if relative is None else relative
+    return brep.Deflection(linear, share, math.radians(20.0 if angular is None else angular))
 
 
 def _stage(progress: Progress | None, stage: str) -> None:
     if progress is not None and progress(stage, 0.0) is False:
-        from freecad_tetra.errors import Cancelled
-
         raise Cancelled()
 
 
@@ -265,24 +276,20 @@ def _validate_shape(
     progress: Progress | None,
 ) -> Validation:
     """Validate a tessellation, finer while it crosses itself or strays in volume."""
-    found: Validation | None = None
-    for step in range(RETRIES + 1):
+    reasons: list[str] = []
+    while True:
         _stage(progress, "tessellate")
         solid = brep.tessellate(shape, wanted, name=name, only=only)
-        reason = _why_finer(found, free) if found is not None else ""
-        solid = _noted(solid, step, reason or (found.solid.notes.get("retried_for", "") if found else ""))
-        found = kernel.validate(solid, None, progress)
-        if not _why_finer(found, free):
-            break
-        wanted = wanted.finer()
-    assert found is not None
-    return found
+        found = kernel.validate(_noted(solid, reasons), None, progress)
+        reason = _why_finer(found, free)
+        if not reason or len(reasons) == RETRIES:
+            return found
+        reasons.append(reason)
+        wanted = wanted.finer(*FINER[reason])
 
 
-def _noted(solid: Solid, retries: int, reason: str) -> Solid:
-    notes: Mapping[str, Any] = {**solid.notes, "retries": retries}
-    if retries:
-        notes = {**notes, "retried_for": reason}
+def _noted(solid: Solid, reasons: Sequence[str]) -> Solid:
+    notes = {**solid.notes, "retries": len(reasons), "retried_for": list(reasons)}
     return Solid(
         solid.vertices, solid.triangles, solid.face_ids, solid.face_names, solid.name,
         solid.solid_ids, notes,
@@ -294,10 +301,9 @@ def _why_finer(found: Validation, free: bool) -> str:
     if found.crosses_itself():
         return "self_crossing"
     volume = found.solid.notes.get("brep_volume", 0.0)
-    if free and not found.defects and volume > 0:
-        if abs(found.solid.volume() / volume - 1) > VOLUME_SHARE:
-            return "volume"
-    return ""
+    judged = free and not found.defects and volume > 0
+    strays = judged and abs(abs(found.solid.volume()) / volume - 1) > VOLUME_SHARE
+    return "volume" if strays else ""
 
 
 def _choose(found: Validation, number: int | None) -> Validation:

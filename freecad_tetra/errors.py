@@ -89,9 +89,7 @@ class TetraError(Exception):
 class InvalidSolid(TetraError):
     """The input is readable but does not bound a solid; ``defects`` says where."""
 
-    def __init__(
-        self, defects: Sequence[Defect], message: str = "", next_step: str = ""
-    ) -> None:
+    def __init__(self, defects: Sequence[Defect], message: str = "", next_step: str = "") -> None:
         self.defects = tuple(defects)
         kinds = sorted({d.kind for d in self.defects})
         count = len(self.defects)
@@ -138,8 +136,7 @@ class KernelMissing(TetraError):
     def __init__(self, reason: str, next_step: str = "") -> None:
         super().__init__(
             reason,
-            next_step
-            or "build it with `make` in a checkout, or `pip install --force-reinstall freecad-tetra`",
+            next_step or "build it with `make`, or `pip install --force-reinstall freecad-tetra`",
         )
 
 

@@ -341,4 +341,3 @@ def _report(raw: Mapping[str, Any], checked: Validation, seconds: float) -> Repo
 def piece_bound(notches: int) -> int:
     """Return r^2/2 + r/2 + 1, the most pieces that r notches can need (Chazelle 1984)."""
     return notches * (notches + 1) // 2 + 1
-

@@ -8,7 +8,6 @@ FreeCAD this package refuses to load OCP.
 from __future__ import annotations
 
 import sys
-from collections.abc import Callable
 from dataclasses import dataclass
 from os import PathLike
 from typing import Any
@@ -37,10 +36,10 @@ class Deflection:
     relative: float = 0.001
     angular: float = 0.3490658503988659  # 20 degrees
 
-    def finer(self, factor: float = 0.5) -> Deflection:
-        """Return the deflection scaled down by `factor`."""
-        linear = None if self.linear is None else self.linear * factor
-        return Deflection(linear, self.relative * factor, self.angular * factor)
+    def finer(self, linear: float, angular: float) -> Deflection:
+        """Return the deflection with its lengths and its angle scaled."""
+        chord = None if self.linear is None else self.linear * linear
+        return Deflection(chord, self.relative * linear, self.angular * angular)
 
 
 def _require_ocp() -> None:
@@ -121,41 +120,3 @@ def tessellate(
     from freecad_tetra.brep import mesh
 
     return mesh.tessellate(shape, deflection or Deflection(), name, only)
-
-
-def tessellate_valid(
-    shape: Any,
-    check: Callable[[Solid], bool],
-    deflection: Deflection | None = None,
-    *,
-    name: str = "",
-    only: int | None = None,
-    steps: int = 3,
-) -> Solid:
-    """Tessellate, and again finer while `check` says that the surface crosses itself.
-
-    Parameters
-    ----------
-    check : callable
-        ``check(solid)`` is True when the surface crosses itself.
-    steps : int
-        How often to refine.
-
-    Returns
-    -------
-    Solid
-        ``notes["retries"]`` tells how often it was refined.
-    """
-    wanted = deflection or Deflection()
-    solid = tessellate(shape, wanted, name=name, only=only)
-    for step in range(steps):
-        if not check(solid):
-            break
-        wanted = wanted.finer()
-        finer = tessellate(shape, wanted, name=name, only=only)
-        notes = {**finer.notes, "retries": step + 1, "retried_for": "self_crossing"}
-        solid = Solid(
-            finer.vertices, finer.triangles, finer.face_ids, finer.face_names, name,
-            finer.solid_ids, notes,
-        )  # fmt: skip
-    return solid

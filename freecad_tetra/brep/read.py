@@ -186,9 +186,9 @@ def _visible_members(archive: zipfile.ZipFile) -> list[str]:
     for provider in view.iter("ViewProvider"):
         for item in provider.iter("Property"):
             flag = item.find("Bool")
-            if item.get("name") == "Visibility" and flag is not None:
-                if flag.get("value") == "true":
-                    visible.add(provider.get("name"))
+            shown = flag is not None and flag.get("value") == "true"
+            if item.get("name") == "Visibility" and shown:
+                visible.add(provider.get("name"))
     shape_of: dict[str, str] = {}
     inside: set[str] = set()
     data = document.find("ObjectData")
