@@ -50,6 +50,7 @@ format: $(STAMPS)/venv
 	$(BIN)/ruff format --quiet .
 
 tidy: $(STAMPS)/venv
+	tools/install_debian.sh clang-tidy
 	cmake -S . -B $(CHECKS) -G Ninja -DTETRA_BUILD_TESTS=ON -DTETRA_SANITIZE=ON -DTETRA_WERROR=ON
 	clang-tidy -p $(CHECKS) --quiet $$(find kernel/src -name '*.cpp')
 

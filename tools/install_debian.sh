@@ -1,6 +1,6 @@
 #!/bin/bash
 # SPDX-License-Identifier: LGPL-2.1-or-later
-# Installs the Debian packages that build, tests and demo need; asks for root only when one is missing.
+# Installs the Debian packages that build, tests and demo need; wants root only for missing ones.
 #
 # Usage: install_debian.sh [PACKAGE...]   (without arguments the list below)
 set -euo pipefail
@@ -8,7 +8,7 @@ set -euo pipefail
 packages=(
     build-essential cmake ninja-build git util-linux ca-certificates
     python3 python3-dev python3-venv
-    libgtest-dev clang-format clang-tidy
+    libgtest-dev clang-format
     # Shared libraries that cadquery-ocp and gmsh load at run time.
     libgl1 libglu1-mesa libxrender1 libxcursor1 libxft2 libxinerama1 libxfixes3 libxext6 libsm6
     libice6 libfontconfig1 libgomp1
