@@ -166,7 +166,7 @@ def test_grid_holds_all_points_within_half_a_step():
         step, origin = Fraction(result[0]), result[1:4]
         assert math.frexp(result[0])[0] == 0.5, "a power of two"
         half = max(max(c) - min(c) for c in zip(*[[*map(Fraction, p)] for p in points])) / 2
-finest = 2 * half * (1 + Fraction(1, 2**50)) >= step * 2**bits
+        finest = 2 * half * (1 + Fraction(1, 2**50)) >= step * 2**bits
         assert finest or half == 0 or step == Fraction(2) ** -1000
         for p, (x, y, z, bx, by, bz) in zip(points, [result[4 + 6 * i :][:6] for i in range(99)]):
             for k, (snapped, back) in enumerate(((x, bx), (y, by), (z, bz))):
