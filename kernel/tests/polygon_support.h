@@ -5,9 +5,11 @@
 #include <algorithm>
 #include <array>
 #include <cstdint>
+#include <cstdlib>
 #include <map>
 #include <random>
 #include <set>
+#include <string>
 #include <utility>
 #include <vector>
 
@@ -176,6 +178,23 @@ struct Polyomino {
         return sum;
     }
 };
+
+/// Boundary edges of loops as they come.
+inline std::vector<DirectedEdge> edges_of(const std::vector<std::vector<PointId>>& loops) {
+    std::vector<DirectedEdge> edges;
+    for (const auto& loop : loops) {
+        for (std::size_t k = 0; k < loop.size(); ++k) {
+            edges.push_back({loop[k], loop[(k + 1) % loop.size()]});
+        }
+    }
+    return edges;
+}
+
+/// A dev run sets TETRA_POLYGON_CASES; the slice of the unit test is small.
+inline int case_count(int normal) {
+    const char* wanted = std::getenv("TETRA_POLYGON_CASES");
+    return wanted != nullptr ? std::atoi(wanted) : normal;
+}
 
 inline int draw(std::mt19937_64& random, int low, int high) {
     return low + static_cast<int>(random() % static_cast<std::uint64_t>(high - low + 1));

@@ -6,7 +6,6 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <cstdlib>
 #include <numeric>
 #include <string>
 
@@ -15,21 +14,13 @@
 namespace tetra {
 namespace {
 
+using testing::case_count;
+using testing::edges_of;
 using testing::IntegerPoints;
 using testing::Point;
 using testing::Polyomino;
 
 using Loops = std::vector<std::vector<PointId>>;
-
-std::vector<DirectedEdge> edges_of(const Loops& loops) {
-    std::vector<DirectedEdge> edges;
-    for (const auto& loop : loops) {
-        for (std::size_t k = 0; k < loop.size(); ++k) {
-            edges.push_back({loop[k], loop[(k + 1) % loop.size()]});
-        }
-    }
-    return edges;
-}
 
 Loops one_loop(std::size_t n) {
     Loops loops(1);
@@ -274,15 +265,9 @@ TEST_F(Bad, crossing_boundary) {
     EXPECT_NE(std::string(failure(square, {{0, 2}, {2, 1}, {1, 3}, {3, 0}}).what()), "no error");
 }
 
-/// A dev run sets TETRA_POLYGON_CASES; the slice of the unit test is small.
-int case_count(int normal) {
-    const char* wanted = std::getenv("TETRA_POLYGON_CASES");
-    return wanted != nullptr ? std::atoi(wanted) : normal;
-}
-
 TEST(TriangulateRandom, polyominoes) {
     std::mt19937_64 random(20260101);
-    const int cases = case_count(1500);
+    const int cases = case_count(5000);
     for (int k = 0; k < cases; ++k) {
         const Polyomino p = testing::random_polyomino(random, 9);
         const IntegerPoints oracle(p.points(testing::integer_map(k)));

@@ -30,8 +30,8 @@ std::vector<PointId> distinct_ids(std::span<const DirectedEdge> edges,
 std::vector<int> rank_points(const std::vector<PointId>& by_id, const PointOracle& oracle,
                              std::vector<PointId>& by_rank) {
     by_rank = by_id;
-    std::sort(by_rank.begin(), by_rank.end(),
-              [&](PointId a, PointId b) { return oracle.compare(a, b) < 0; });
+    std::stable_sort(by_rank.begin(), by_rank.end(),
+                     [&](PointId a, PointId b) { return oracle.compare(a, b) < 0; });
     std::vector<int> rank_of(by_id.size());
     for (std::size_t rank = 0; rank < by_rank.size(); ++rank) {
         if (rank > 0 && oracle.compare(by_rank[rank - 1], by_rank[rank]) >= 0) {
