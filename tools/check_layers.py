@@ -35,10 +35,11 @@ PYTHON_RANK = {
     "io": 2,
     "export": 2,
     "fem": 2,
+    "check": 2,
     "api": 3,
     "__init__": 4,
     "cli": 5,
-    "__main__": 5,
+    "__main__": 6,
     "workbench": 5,
 }
 # Modules of equal rank see nothing of each other, save for these, which serve all of their rank.
