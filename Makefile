@@ -11,7 +11,7 @@ STAMPS := build/stamps
 CHECKS := build/checks
 
 KERNEL_FILES := CMakeLists.txt $(shell find kernel -type f)
-PACKAGE_FILES := pyproject.toml $(shell find freecad_tetra -name '*.py')
+PACKAGE_FILES := pyproject.toml freecad_tetra/_version.py
 CXX_FILES := $(shell find kernel benchmarks -name '*.cpp' -o -name '*.h')
 
 .PHONY: all demo test lint format tidy test-kernel test-python benchmark clean
@@ -30,7 +30,8 @@ $(STAMPS)/venv: $(STAMPS)/debian tools/requirements.txt
 	$(BIN)/python -m pip install --quiet -r tools/requirements.txt
 	touch $@
 
-# Editable and incremental: objects stay in build/<tag>, so a changed source costs its own compilation.
+# Editable, so changed Python needs nothing; objects stay in build/<tag>, so a changed C++ file
+# costs its own compilation.
 $(STAMPS)/install: $(STAMPS)/venv $(KERNEL_FILES) $(PACKAGE_FILES)
 	CMAKE_BUILD_PARALLEL_LEVEL=$(JOBS) flock build/lock \
 	    $(BIN)/python -m pip install --quiet --no-deps --no-build-isolation --editable .
