@@ -1,0 +1,214 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// The order of collapses, flips and walks, and how far each goes.
+#include "tetra/assemble/compact.h"
+
+#include <algorithm>
+#include <chrono>
+
+#include "collapse.h"
+#include "flips.h"
+#include "tet_complex.h"
+#include "unlock.h"
+
+namespace tetra {
+namespace {
+
+std::size_t at(int i) { return static_cast<std::size_t>(i); }
+
+constexpr int kEdges[6][2] = {{0, 1}, {0, 2}, {0, 3}, {1, 2}, {1, 3}, {2, 3}};
+
+class Compactor {
+public:
+    Compactor(TetComplex& mesh, const CompactOptions& options, Progress& progress)
+        : mesh_(mesh), options_(options), progress_(progress), rng_{options.seed} {
+        dirty_.assign(at(mesh.point_count()), 1);
+        for (const CarrierKind kind : {CarrierKind::edge, CarrierKind::facet, CarrierKind::inner})
+            for (int p = 0; p < mesh.point_count(); ++p)
+                if (mesh.carrier(p).kind == kind) steiner_.push_back(p);
+    }
+
+    CompactStats run() {
+        const auto start = std::chrono::steady_clock::now();
+        collapse_all();
+        reduce_all();
+        if (options_.level == CompactLevel::max) {
+            run_max(start);
+        } else {
+            for (int round = 0; round < 2; ++round)
+                if (unlock_all(WalkOptions{}) == 0) break;
+            reduce_all();
+            for (int sweep = 0; sweep < 2; ++sweep) neutral_sweep();
+        }
+        reduce_all();
+        return stats_;
+    }
+
+private:
+    void run_max(std::chrono::steady_clock::time_point start) {
+        WalkOptions walk;
+        walk.targets = 6;
+        walk.max_ring = 7;
+        walk.max_bad = 30;
+        for (int round = 0; round < options_.rounds; ++round) {
+            const int before = mesh_.tet_count();
+            walk.sideways = round == 0 ? 4 : 25;
+            std::fill(dirty_.begin(), dirty_.end(), 1);
+            const int moved = unlock_all(walk);
+            reduce_all();
+            for (int sweep = 0; sweep < 4; ++sweep) neutral_sweep();
+            ++stats_.rounds;
+            if (round > 2 && moved == 0 && mesh_.tet_count() == before) break;
+            const std::chrono::duration<double> spent = std::chrono::steady_clock::now() - start;
+            if (options_.seconds > 0 && spent.count() > options_.seconds) break;
+        }
+    }
+
+    void touch(const std::vector<int>& points) {
+        for (int v : points) dirty_[at(v)] = 1;
+    }
+
+    void drop_removed() {
+        std::erase_if(steiner_, [&](int p) { return mesh_.star_of(p).empty(); });
+    }
+
+    void collapse_all() {
+        for (bool moved = true; moved;) {
+            moved = false;
+            for (int p : steiner_) {
+                progress_.poll("compact", 0.1);
+                if (!dirty_[at(p)]) continue;
+                dirty_[at(p)] = 0;
+                if (!try_collapse(mesh_, p, scratch_)) continue;
+                touch(scratch_.touched);
+                ++stats_.collapses;
+                moved = true;
+            }
+            drop_removed();
+        }
+    }
+
+    // One walk for each stuck point, in random order; a collapse pass after.
+    int unlock_all(const WalkOptions& walk) {
+        std::vector<int> order = steiner_;
+        for (int i = static_cast<int>(order.size()) - 1; i > 0; --i)
+            std::swap(order[at(i)], order[at(rng_.below(i + 1))]);
+        int moved = 0;
+        for (std::size_t i = 0; i < order.size(); ++i) {
+            progress_.poll("compact", 0.2 + 0.5 * static_cast<double>(i) /
+                                                static_cast<double>(order.size()));
+            if (!unlock_collapse(mesh_, order[i], walk, rng_, scratch_)) continue;
+            touch(scratch_.touched);
+            ++moved;
+        }
+        stats_.unlocked += moved;
+        drop_removed();
+        collapse_all();
+        return moved;
+    }
+
+    bool reduce_at(int t) {
+        for (const auto& e : kEdges) {
+            Ring ring;
+            if (!find_ring(mesh_, t, e[0], e[1], 3, ring) || ring.open || ring.size != 3) continue;
+            Flip flip;
+            if (!propose_edge_flip(mesh_, ring, [](const Tet&) { return 0.0; }, flip)) continue;
+            mesh_.apply(flip);
+            ++stats_.reducing_flips;
+            for (const Tet& v : flip.added())
+                for (int p : v) dirty_[at(p)] = 1;
+            return true;
+        }
+        return false;
+    }
+
+    // 3-2 wherever it goes; new tetrahedra come at the end and are looked at too.
+    void reduce_all() {
+        for (int t = 0; t < mesh_.id_count(); ++t) {
+            progress_.poll("compact", 0.7);
+            if (mesh_.alive(t)) reduce_at(t);
+        }
+        mesh_.forget();
+    }
+
+    // 4-4 and 2-2 at random; kept when a 3-2 follows, else by a coin (COMPACT.md A4).
+    void neutral_sweep() {
+        const int end = mesh_.id_count();
+        for (int t = 0; t < end; ++t) {
+            progress_.poll("compact", 0.8);
+            if (mesh_.alive(t)) neutral_at(t);
+        }
+        mesh_.forget();
+    }
+
+    void neutral_at(int t) {
+        const int first = rng_.below(6);
+        for (int k = 0; k < 6; ++k) {
+            const auto& e = kEdges[(first + k) % 6];
+            Ring ring;
+            if (!find_ring(mesh_, t, e[0], e[1], 4, ring)) continue;
+            if (ring.open ? ring.size != 2 || ring.first_class != ring.last_class
+                          : ring.size != 4)
+                continue;
+            Flip flip;
+            const auto coin = [&](const Tet&) { return static_cast<double>(rng_.next() >> 60); };
+            if (!propose_edge_flip(mesh_, ring, coin, flip)) continue;
+            if (ring.open && !may_open_flip(mesh_, ring)) continue;
+            const std::size_t mark = mesh_.mark();
+            const int fresh = mesh_.id_count();
+            mesh_.apply(flip);
+            bool reduced = false;
+            for (int n = fresh; n < mesh_.id_count(); ++n)
+                if (mesh_.alive(n)) reduced = reduce_at(n) || reduced;
+            if (!reduced && (rng_.next() & 1)) {
+                mesh_.undo_to(mark);
+                continue;
+            }
+            for (const Tet& v : flip.added())
+                for (int p : v) dirty_[at(p)] = 1;
+            return;
+        }
+    }
+
+    TetComplex& mesh_;
+    CompactOptions options_;
+    Progress& progress_;
+    Rng rng_;
+    CompactStats stats_;
+    CollapseScratch scratch_;
+    std::vector<char> dirty_;
+    std::vector<int> steiner_;  // still there: on edges first, then in facets, then inside
+};
+
+}  // namespace
+
+SteinerCount count_steiner(const ExactMesh& mesh) {
+    SteinerCount n;
+    for (const Carrier& c : mesh.carriers) {
+        n.edge += c.kind == CarrierKind::edge;
+        n.facet += c.kind == CarrierKind::facet;
+        n.inner += c.kind == CarrierKind::inner;
+    }
+    return n;
+}
+
+CompactStats compact(ExactMesh& mesh, const GridSolid& solid, std::span<const int> faces,
+                     const CompactOptions& options, Progress& progress) {
+    const auto start = std::chrono::steady_clock::now();
+    const int tets_before = static_cast<int>(mesh.tets.size());
+    const SteinerCount steiner_before = count_steiner(mesh);
+    CompactStats stats;
+    if (options.level != CompactLevel::none) {
+        TetComplex complex(mesh, solid.grid, facet_classes(solid, faces));
+        stats = Compactor(complex, options, progress).run();
+        complex.write_back(mesh, nullptr);
+    }
+    stats.tets_before = tets_before;
+    stats.tets_after = static_cast<int>(mesh.tets.size());
+    stats.steiner_before = steiner_before;
+    stats.steiner_after = count_steiner(mesh);
+    stats.seconds =
+        std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+    return stats;
+}
+
+}  // namespace tetra

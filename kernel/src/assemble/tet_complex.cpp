@@ -1,0 +1,391 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Linking and unlinking of tetrahedra, and the filtered sign both geometries must agree on.
+#include "tet_complex.h"
+
+#include <algorithm>
+#include <cassert>
+#include <string>
+#include <tuple>
+
+#include "tetra/assemble/double_predicates.h"
+#include "tetra/errors.h"
+#include "tetra/exact/plane.h"
+#include "tetra/exact/predicates.h"
+
+namespace tetra {
+namespace {
+
+std::size_t at(int i) { return static_cast<std::size_t>(i); }
+
+bool fits_integer(const HPoint& p) {
+    const auto small = [](const Int256& v) { return v == Int256(static_cast<std::int64_t>(v.limb[0])); };
+    if (!(p.w == Int256(1)) || !small(p.x) || !small(p.y) || !small(p.z)) return false;
+    for (const Int256* v : {&p.x, &p.y, &p.z})
+        if (std::abs(static_cast<std::int64_t>(v->limb[0])) > (std::int64_t{1} << 40)) return false;
+    return true;
+}
+
+// A triangle seen from one side: of a tetrahedron (code = 4 t + face) or of the skin (~class).
+struct FaceKey {
+    int mid, high, code;
+};
+
+}  // namespace
+
+FacetClasses facet_classes(const GridSolid& solid, std::span<const int> faces) {
+    PlaneTable planes;
+    struct Key {
+        int plane, side, face, solid, triangle;
+    };
+    std::vector<Key> keys;
+    keys.reserve(solid.triangles.size());
+    for (std::size_t k = 0; k < solid.triangles.size(); ++k) {
+        const Triangle& t = solid.triangles[k];
+        const PlaneKey plane = planes.intern(
+            plane_through(solid.points[at(t[0])], solid.points[at(t[1])], solid.points[at(t[2])]));
+        keys.push_back({plane.id, plane.side, faces.empty() ? 0 : faces[k],
+                        solid.solid.empty() ? 0 : solid.solid[k], static_cast<int>(k)});
+    }
+    const auto rank = [](const Key& k) { return std::tie(k.plane, k.side, k.face, k.solid); };
+    std::stable_sort(keys.begin(), keys.end(),
+                     [&](const Key& a, const Key& b) { return rank(a) < rank(b); });
+    FacetClasses out;
+    out.of_triangle.resize(keys.size());
+    for (std::size_t i = 0; i < keys.size(); ++i) {
+        if (i == 0 || rank(keys[i - 1]) != rank(keys[i]))
+            out.classes.push_back({keys[i].plane, keys[i].face, keys[i].triangle});
+        out.of_triangle[at(keys[i].triangle)] = static_cast<int>(out.classes.size()) - 1;
+    }
+    return out;
+}
+
+TetComplex::TetComplex(const ExactMesh& mesh, const Grid& grid, const FacetClasses& classes)
+    : frame_(grid), classes_(classes), exact_(mesh.points), carriers_(mesh.carriers) {
+    const std::size_t n = mesh.points.size();
+    integer_.resize(n);
+    is_integer_.resize(n);
+    grid_.resize(n);
+    place_.resize(n);
+    double reach = 0, far = 0;
+    for (std::size_t p = 0; p < n; ++p) {
+        grid_[p] = to_doubles(exact_[p]);
+        place_[p] = unsnap(frame_, grid_[p]);
+        is_integer_[p] = fits_integer(exact_[p]);
+        if (is_integer_[p])
+            integer_[p] = {static_cast<std::int64_t>(exact_[p].x.limb[0]),
+                           static_cast<std::int64_t>(exact_[p].y.limb[0]),
+                           static_cast<std::int64_t>(exact_[p].z.limb[0])};
+        for (std::size_t k = 0; k < 3; ++k) {
+            reach = std::max(reach, std::fabs(grid_[p][k]));
+            far = std::max(far, std::fabs(place_[p][k]));
+        }
+    }
+    // to_doubles is off by at most 2^-50 of the coordinate, unsnap by one rounding of the result.
+    grid_slack_ = 0x1p-50 * reach;
+    place_slack_ = grid_slack_ + 0x1p-52 * far / frame_.step;
+    stars_.resize(n);
+    tets_.reserve(mesh.tets.size() * 3 / 2);
+    for (std::size_t t = 0; t < mesh.tets.size(); ++t)
+        add(mesh.tets[t], mesh.tet_solid.empty() ? 0 : mesh.tet_solid[t]);
+    pair_faces(mesh);
+}
+
+// Buckets by lowest corner keep this linear but for the sort inside a bucket.
+void TetComplex::pair_faces(const ExactMesh& mesh) {
+    const auto sorted = [](int a, int b, int c) {
+        if (a > b) std::swap(a, b);
+        if (b > c) std::swap(b, c);
+        if (a > b) std::swap(a, b);
+        return Triangle{a, b, c};
+    };
+    const auto face = [&](int t, int i) {
+        const Tet& v = tets_[at(t)];
+        return sorted(v[at(kFace[i][0])], v[at(kFace[i][1])], v[at(kFace[i][2])]);
+    };
+    std::vector<int> start(exact_.size() + 1, 0);
+    for (int t = 0; t < id_count(); ++t)
+        for (int i = 0; i < 4; ++i) ++start[at(face(t, i)[0]) + 1];
+    for (const Triangle& s : mesh.skin) ++start[at(sorted(s[0], s[1], s[2])[0]) + 1];
+    for (std::size_t p = 1; p < start.size(); ++p) start[p] += start[p - 1];
+    std::vector<FaceKey> keys(at(start.back()));
+    std::vector<int> fill(start.begin(), start.end() - 1);
+    for (int t = 0; t < id_count(); ++t)
+        for (int i = 0; i < 4; ++i) {
+            const Triangle f = face(t, i);
+            keys[at(fill[at(f[0])]++)] = {f[1], f[2], 4 * t + i};
+        }
+    for (std::size_t s = 0; s < mesh.skin.size(); ++s) {
+        const Triangle f = sorted(mesh.skin[s][0], mesh.skin[s][1], mesh.skin[s][2]);
+        keys[at(fill[at(f[0])]++)] = {f[1], f[2], ~static_cast<int>(s)};
+    }
+    const auto fail = [](const char* what, int p, int q, int r) {
+        throw VerificationFailed(std::string("tetrahedra before compaction: ") + what +
+                                 " at points " + std::to_string(p) + ", " + std::to_string(q) +
+                                 ", " + std::to_string(r));
+    };
+    const auto outward = [&](int code, const Triangle& s) {
+        const Tet& v = tets_[at(code / 4)];
+        const int* f = kFace[code % 4];
+        for (int k = 0; k < 3; ++k)
+            if (v[at(f[k])] == s[0]) return v[at(f[(k + 1) % 3])] == s[1];
+        return false;
+    };
+    for (int p = 0; p + 1 < static_cast<int>(start.size()); ++p) {
+        const auto first = keys.begin() + start[at(p)], last = keys.begin() + start[at(p) + 1];
+        std::sort(first, last, [](const FaceKey& a, const FaceKey& b) {
+            return std::tie(a.mid, a.high, b.code) < std::tie(b.mid, b.high, a.code);
+        });
+        for (auto i = first; i != last;) {
+            auto j = i;
+            while (j != last && j->mid == i->mid && j->high == i->high) ++j;
+            // Within a group tetrahedra come first (codes descend), then skin triangles.
+            int sides[2], side_count = 0;
+            std::vector<int> skins;
+            for (auto k = i; k != j; ++k) {
+                if (k->code < 0) {
+                    skins.push_back(~k->code);
+                } else {
+                    if (side_count == 2) fail("three tetrahedra on a triangle", p, i->mid, i->high);
+                    sides[side_count++] = k->code;
+                }
+            }
+            if (side_count == 2 && skins.empty()) {
+                neighbours_[at(sides[0] / 4)][at(sides[0] % 4)] = sides[1];
+                neighbours_[at(sides[1] / 4)][at(sides[1] % 4)] = sides[0];
+            } else {
+                if (static_cast<int>(skins.size()) != side_count)
+                    fail("skin and tetrahedra disagree", p, i->mid, i->high);
+                for (int s = 0; s < side_count; ++s) {
+                    int found = -1;
+                    for (int k : skins)
+                        if (outward(sides[s], mesh.skin[at(k)])) found = k;
+                    if (found < 0) fail("a skin triangle faces inward", p, i->mid, i->high);
+                    neighbours_[at(sides[s] / 4)][at(sides[s] % 4)] =
+                        ~classes_.of_triangle[at(mesh.skin_source[at(found)])];
+                }
+            }
+            i = j;
+        }
+    }
+}
+
+void TetComplex::write_back(ExactMesh& mesh, std::vector<Vec3d>* places) const {
+    std::vector<int> id(exact_.size(), -1);
+    for (std::size_t p = 0; p < exact_.size(); ++p)
+        if (carriers_[p].kind == CarrierKind::vertex) id[p] = 0;
+    ExactMesh out;
+    out.tets.reserve(at(live_));
+    for (int t = 0; t < id_count(); ++t)
+        if (alive(t))
+            for (int v : tets_[at(t)]) id[at(v)] = 0;
+    if (places) places->clear();
+    for (std::size_t p = 0; p < exact_.size(); ++p) {
+        if (id[p] < 0) continue;
+        id[p] = static_cast<int>(out.points.size());
+        out.points.push_back(exact_[p]);
+        out.carriers.push_back(carriers_[p]);
+        if (places) places->push_back(place_[p]);
+    }
+    for (int t = 0; t < id_count(); ++t) {
+        if (!alive(t)) continue;
+        const Tet& v = tets_[at(t)];
+        out.tets.push_back({id[at(v[0])], id[at(v[1])], id[at(v[2])], id[at(v[3])]});
+        out.tet_solid.push_back(solid_[at(t)]);
+        for (int i = 0; i < 4; ++i) {
+            const int code = neighbour(t, i);
+            if (code >= 0) continue;
+            out.skin.push_back(
+                {id[at(v[at(kFace[i][0])])], id[at(v[at(kFace[i][1])])], id[at(v[at(kFace[i][2])])]});
+            out.skin_source.push_back(facet_class(~code).triangle);
+        }
+    }
+    mesh = std::move(out);
+}
+
+int TetComplex::add(const Tet& t, int solid) {
+    const int id = id_count();
+    tets_.push_back(t);
+    neighbours_.push_back({-1, -1, -1, -1});
+    alive_.push_back(1);
+    solid_.push_back(solid);
+    stamp_.push_back(0);
+    for (int v : t) enter_star(v, id);
+    ++live_;
+    return id;
+}
+
+// Stale ids pile up at points whose star nobody asks for: drop them before the list has to grow.
+void TetComplex::enter_star(int p, int t) {
+    std::vector<int>& list = stars_[at(p)];
+    if (list.size() == list.capacity() && list.size() >= 32) {
+        star_of(p);
+        list.reserve(2 * list.size() + 32);
+    }
+    list.push_back(t);
+}
+
+const std::vector<int>& TetComplex::star_of(int p) {
+    std::vector<int>& list = stars_[at(p)];
+    if (++clock_ == 0) {
+        std::fill(stamp_.begin(), stamp_.end(), 0u);
+        clock_ = 1;
+    }
+    std::size_t n = 0;
+    for (int t : list) {
+        // Ids above the end are of undone tetrahedra; ids may have been given again since.
+        if (t >= id_count() || !alive(t) || stamp_[at(t)] == clock_ || !contains(tets_[at(t)], p))
+            continue;
+        stamp_[at(t)] = clock_;
+        list[n++] = t;
+    }
+    list.resize(n);
+    return list;
+}
+
+bool TetComplex::exactly_positive(int a, int b, int c, int d) const {
+    if (is_integer_[at(a)] && is_integer_[at(b)] && is_integer_[at(c)] && is_integer_[at(d)])
+        return orient3d(integer_[at(a)], integer_[at(b)], integer_[at(c)], integer_[at(d)]) > 0;
+    return orient3d(exact_[at(a)], exact_[at(b)], exact_[at(c)], exact_[at(d)]) > 0;
+}
+
+bool TetComplex::positive(int ia, int ib, int ic, int id) const {
+    const Vec3d &a = grid_[at(ia)], &b = grid_[at(ib)], &c = grid_[at(ic)], &d = grid_[at(id)];
+    const double ux = b[0] - a[0], uy = b[1] - a[1], uz = b[2] - a[2];
+    const double vx = c[0] - a[0], vy = c[1] - a[1], vz = c[2] - a[2];
+    const double wx = d[0] - a[0], wy = d[1] - a[1], wz = d[2] - a[2];
+    const double det =
+        (uy * vz - uz * vy) * wx + (uz * vx - ux * vz) * wy + (ux * vy - uy * vx) * wz;
+    // Each difference is off by at most h; with h inside x, y, z the determinant is then off by at
+    // most 6 h (xy + yz + zx), and its own rounding by 2^-49 of the permanent, at most 6 x y z.
+    const double h = 2 * (moved_ ? grid_slack_ : place_slack_);
+    const double x = std::max({std::fabs(ux), std::fabs(vx), std::fabs(wx)}) + h;
+    const double y = std::max({std::fabs(uy), std::fabs(vy), std::fabs(wy)}) + h;
+    const double z = std::max({std::fabs(uz), std::fabs(vz), std::fabs(wz)}) + h;
+    const double bound = 6.01 * (h * (x * y + y * z + z * x) + 0x1p-49 * (x * y * z));
+    if (det < -bound) return false;
+    if (det > bound) {
+        if (!moved_) return true;
+    } else if (!exactly_positive(ia, ib, ic, id)) {
+        return false;
+    }
+    return orient3d(place_[at(ia)], place_[at(ib)], place_[at(ic)], place_[at(id)]) > 0;
+}
+
+bool TetComplex::place_positive(const Tet& t) const {
+    return orient3d(place_[at(t[0])], place_[at(t[1])], place_[at(t[2])], place_[at(t[3])]) > 0;
+}
+
+void TetComplex::collapse(int p, int q) {
+    assert(log_.empty());
+    const std::vector<int>& star = star_of(p);
+    for (int t : star) {
+        const int i = corner(tets_[at(t)], p), j = corner(tets_[at(t)], q);
+        if (j < 0) continue;
+        // The two faces that fold onto one another hand each other their outer neighbours.
+        const int beyond_p = neighbour(t, i), beyond_q = neighbour(t, j);
+        assert(beyond_p >= 0 || beyond_q >= 0);
+        if (beyond_p >= 0) neighbours_[at(beyond_p / 4)][at(beyond_p % 4)] = beyond_q;
+        if (beyond_q >= 0) neighbours_[at(beyond_q / 4)][at(beyond_q % 4)] = beyond_p;
+        alive_[at(t)] = 0;
+        --live_;
+    }
+    for (int t : star) {
+        if (!alive(t)) continue;
+        tets_[at(t)][at(corner(tets_[at(t)], p))] = q;
+        enter_star(q, t);
+    }
+    stars_[at(p)].clear();
+}
+
+void TetComplex::apply(const Flip& flip) {
+    struct Side {
+        unsigned corners;
+        int code;
+    };
+    std::array<int, 12> local;
+    int local_count = 0;
+    const auto bit = [&](int v) {
+        for (int i = 0; i < local_count; ++i)
+            if (local[at(i)] == v) return 1u << i;
+        local[at(local_count)] = v;
+        return 1u << local_count++;
+    };
+    std::array<Side, 48> open;
+    int open_count = 0;
+    const auto match = [&](unsigned corners) -> Side* {
+        for (int i = 0; i < open_count; ++i)
+            if (open[at(i)].corners == corners) return &open[at(i)];
+        return nullptr;
+    };
+    const auto each_face = [&](const Tet& t, auto&& visit) {
+        unsigned bits[4];
+        for (int i = 0; i < 4; ++i) bits[i] = bit(t[at(i)]);
+        const unsigned all = bits[0] | bits[1] | bits[2] | bits[3];
+        for (int i = 0; i < 4; ++i) visit(i, all & ~bits[i]);
+    };
+    int solid = 0;
+    for (int t : flip.killed()) {
+        solid = solid_[at(t)];
+        each_face(tets_[at(t)], [&](int i, unsigned corners) {
+            // Two killed tetrahedra on a triangle: it is inside and vanishes.
+            if (Side* s = match(corners)) {
+                *s = open[at(--open_count)];
+            } else {
+                open[at(open_count++)] = {corners, neighbour(t, i)};
+            }
+        });
+        alive_[at(t)] = 0;
+        --live_;
+        log_.push_back(t);
+    }
+    log_.push_back(flip.kill_count);
+    log_.push_back(flip.add_count);
+    for (const Tet& v : flip.added()) {
+        const int t = add(v, solid);
+        each_face(v, [&](int i, unsigned corners) {
+            const int here = 4 * t + i;
+            if (Side* s = match(corners)) {
+                neighbours_[at(t)][at(i)] = s->code;
+                if (s->code >= 0) neighbours_[at(s->code / 4)][at(s->code % 4)] = here;
+                *s = open[at(--open_count)];
+            } else {
+                open[at(open_count++)] = {corners, here};
+            }
+        });
+    }
+    // What is still open is skin: that of the killed, which is gone, or new on added tetrahedra.
+    for (int i = 0; i < open_count; ++i) {
+        const int code = open[at(i)].code;
+        if (code < 0) continue;
+        assert(code / 4 >= id_count() - flip.add_count && flip.skin_class >= 0);
+        neighbours_[at(code / 4)][at(code % 4)] = ~flip.skin_class;
+    }
+}
+
+void TetComplex::undo_to(std::size_t mark) {
+    while (log_.size() > mark) {
+        const int added = log_.back();
+        log_.pop_back();
+        const int killed = log_.back();
+        log_.pop_back();
+        const std::size_t keep = tets_.size() - at(added);
+        tets_.resize(keep);
+        neighbours_.resize(keep);
+        alive_.resize(keep);
+        solid_.resize(keep);
+        stamp_.resize(keep);
+        live_ += killed - added;
+        for (int k = 0; k < killed; ++k) {
+            const int t = log_.back();
+            log_.pop_back();
+            alive_[at(t)] = 1;
+            for (int i = 0; i < 4; ++i) {
+                const int code = neighbour(t, i);
+                if (code >= 0) neighbours_[at(code / 4)][at(code % 4)] = 4 * t + i;
+            }
+            for (int v : tets_[at(t)]) enter_star(v, t);
+        }
+    }
+}
+
+}  // namespace tetra
