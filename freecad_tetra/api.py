@@ -205,11 +205,35 @@ def place_guards(source: Any, **options: Any) -> Any:
     return module.place_guards(surface.vertices, surface.triangles, surface.solid_ids, options)
 
 
-def write(result: ConvexCells | TetMesh | Solid, path: str | PathLike[str]) -> Path:
-    """Write a result to a file, whole or not at all; the suffix selects the format."""
+def check(
+    source: Any, path: str | PathLike[str], *, progress: Progress | None = None, **reading: Any
+) -> dict[str, Any]:
+    """Verify a result file (.obj or .vtu) against the solid that it decomposes.
+
+    Returns
+    -------
+    dict
+        Figures of the check.
+
+    Raises
+    ------
+    VerificationFailed, UnreadableFile, InvalidSolid and the errors of `as_solid`
+    """
+    from freecad_tetra import verify
+    from freecad_tetra.io import results
+
+    stored = results.read_result(path)
+    surface = validate(source, progress=progress, **reading).surface()
+    if isinstance(stored, results.StoredTets):
+        return verify.check_tets(surface, stored.points, stored.tets, progress)
+    return verify.check_cells(surface, stored.points, stored.cells, progress)
+
+
+def write(result: ConvexCells | TetMesh | Solid, path: str | PathLike[str], order: int = 1) -> Path:
+    """Write a result to a file, whole or not at all; see `freecad_tetra.export.write`."""
     from freecad_tetra import export
 
-    return export.write(result, path)
+    return export.write(result, path, order)
 
 
 def _deflection(

@@ -78,7 +78,7 @@ class Solid:
         Counter-clockwise seen from outside.
     face_ids : (m,) int32
         B-rep face of each triangle, an index into `face_names`; without names the index
-        of the input polygon.
+        of the input polygon. Empty: every triangle is a polygon of its own.
     face_names : tuple of str
         ``Face1``, ``Face2``, ... as FreeCAD numbers them; empty for meshes.
     name : str
@@ -90,7 +90,7 @@ class Solid:
 
     vertices: FloatArray
     triangles: IntArray
-    face_ids: IntArray | None = None  # type: ignore[assignment]
+    face_ids: IntArray = field(default_factory=lambda: np.zeros(0, np.int32))
     face_names: tuple[str, ...] = ()
     name: str = ""
     solid_ids: IntArray | None = None
@@ -100,7 +100,7 @@ class Solid:
         _freeze(self, "vertices", np.float64, -1, 3)
         _freeze(self, "triangles", np.int32, -1, 3)
         count = len(self.triangles)
-        if self.face_ids is None:
+        if len(self.face_ids) == 0:
             object.__setattr__(self, "face_ids", np.arange(count, dtype=np.int32))
         _freeze(self, "face_ids", np.int32, -1)
         if self.solid_ids is not None:
@@ -322,7 +322,7 @@ class ConvexCells:
         origin = self.points[self.facet_vertices[first]][cell]
         a, b, c = (self.points[triangles[:, i]] - origin for i in range(3))
         parts = np.einsum("ij,ij->i", a, np.cross(b, c)) / 6.0
-        return np.bincount(cell, weights=parts, minlength=len(self))
+        return np.bincount(cell, weights=parts, minlength=len(self)).astype(np.float64)
 
 
 @dataclass(frozen=True, eq=False)

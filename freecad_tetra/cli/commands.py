@@ -91,9 +91,10 @@ def _fail(arguments: argparse.Namespace, error: TetraError, code: int) -> int:
 
 def _require_writable(arguments: argparse.Namespace) -> None:
     """Refuse bad output names before the work and not after it."""
+    order = getattr(arguments, "order", 1)
     kinds = {"cells": ConvexCells, "tets": TetMesh}
     if arguments.command in kinds:
-        export.writer_for(kinds[arguments.command], arguments.output)
+        export.writer_for(kinds[arguments.command], arguments.output, order)
     if arguments.surface:
         export.writer_for(Solid, arguments.surface)
     for name in (getattr(arguments, "output", None), arguments.surface, arguments.report):
@@ -171,7 +172,7 @@ def _write_all(
     meter("write", 0.0)
     if arguments.surface:
         export.write(found.surface(), arguments.surface)
-    export.write(result, arguments.output)
+    export.write(result, arguments.output, getattr(arguments, "order", 1))
     _write_report(arguments, {**report.to_dict(), "exit_code": DONE})
 
 
@@ -189,9 +190,8 @@ def _info(arguments: argparse.Namespace, meter: Meter) -> int:
     counts.update(found.counts)
     notches = counts.get("notches")
     bounds = {} if notches is None else {"bajaj_dey": piece_bound(notches)}
-    for label, value in counts.items():
-        print(f"{label.replace('_', ' '):<16} {value}")
-    for label, value in _info_lines(found, bounds):
+    told = [(label.replace("_", " "), str(value)) for label, value in counts.items()]
+    for label, value in [*told, *_info_lines(found, bounds)]:
         print(f"{label:<16} {value}")
     report = Report(
         counts=counts,

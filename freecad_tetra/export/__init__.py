@@ -15,35 +15,37 @@ from freecad_tetra.model import ConvexCells, Solid, TetMesh
 Writer = Callable[[Any, BinaryIO], None]
 
 CELL_SUFFIXES = (".obj", ".vtu", ".glb", ".brep", ".step", ".stp")
-TET_SUFFIXES = (".vtu", ".msh", ".inp", ".mesh", ".vtk", ".obj")
+TET_SUFFIXES = (".vtu", ".msh", ".msh2", ".inp", ".mesh", ".vtk", ".obj")
 SURFACE_SUFFIXES = (".off",)
 
 
-def write(result: ConvexCells | TetMesh | Solid, path: str | PathLike[str]) -> Path:
+def write(result: ConvexCells | TetMesh | Solid, path: str | PathLike[str], order: int = 1) -> Path:
     """Write a result; the file appears whole or not at all.
 
     Parameters
     ----------
     result : ConvexCells, TetMesh or Solid
     path : path
-        Cells: .obj .vtu .glb .brep .step; tetrahedra: .vtu .msh .inp .mesh .vtk .obj (skin);
-        a Solid: .off.
+        Cells: .obj .vtu .glb .brep .step; tetrahedra: .vtu .msh (4.1) .msh2 (2.2) .inp .mesh
+        .vtk .obj (skin); a Solid: .off.
+    order : {1, 2}
+        Nodes per edge of tetrahedra, less one; 2 puts a node in the middle of each edge.
 
     Raises
     ------
     UnsupportedFormat
         The suffix does not fit the result.
-    TetraError
+    UnwritableFile
         The folder cannot be written to.
     """
     file = Path(path)
-    writer = writer_for(type(result), file)
+    writer = writer_for(type(result), file, order)
     with atomic(file) as stream:
         writer(result, stream)
     return file
 
 
-def writer_for(kind: type, path: str | PathLike[str]) -> Writer:
+def writer_for(kind: type, path: str | PathLike[str], order: int = 1) -> Writer:
     """Return the writer of a kind of result for a suffix, before any work is done.
 
     Raises
@@ -51,63 +53,50 @@ def writer_for(kind: type, path: str | PathLike[str]) -> Writer:
     UnsupportedFormat
     """
     suffix = Path(path).suffix.lower()
-    if kind is ConvexCells and suffix in CELL_SUFFIXES:
+    wanted = {ConvexCells: CELL_SUFFIXES, TetMesh: TET_SUFFIXES, Solid: SURFACE_SUFFIXES}[kind]
+    if suffix not in wanted:
+        raise UnsupportedFormat(
+            f"{path}: suffix {suffix or '(none)'} cannot be written for this result",
+            f"use one of {' '.join(wanted)}",
+        )
+    if kind is ConvexCells:
         return _cell_writer(suffix)
-    if kind is TetMesh and suffix in TET_SUFFIXES:
-        return _tet_writer(suffix)
-    if kind is Solid and suffix in SURFACE_SUFFIXES:
-        from freecad_tetra.export import off
+    if kind is TetMesh:
+        return _tet_writer(suffix, order)
+    from freecad_tetra.export import off
 
-        return off.write_surface
-    wanted = {ConvexCells: CELL_SUFFIXES, TetMesh: TET_SUFFIXES, Solid: SURFACE_SUFFIXES}
-    raise UnsupportedFormat(
-        f"{path}: suffix {suffix or '(none)'} cannot be written for this result",
-        f"use one of {' '.join(wanted.get(kind, ()))}",
-    )
+    return off.write_surface
 
 
 def _cell_writer(suffix: str) -> Writer:
+    from freecad_tetra.export import brep, glb, obj, vtu
+
+    return {
+        ".obj": obj.write_cells,
+        ".vtu": vtu.write_cells,
+        ".glb": glb.write_cells,
+        ".brep": brep.write_cells,
+        ".step": brep.write_step,
+        ".stp": brep.write_step,
+    }[suffix]
+
+
+def _tet_writer(suffix: str, order: int) -> Writer:
+    from freecad_tetra.export import elements, inp, medit, msh, obj, vtk, vtu
+
     if suffix == ".obj":
-        from freecad_tetra.export import obj
-
-        return obj.write_cells
-    if suffix == ".vtu":
-        from freecad_tetra.export import vtu
-
-        return vtu.write_cells
-    if suffix == ".glb":
-        from freecad_tetra.export import glb
-
-        return glb.write_cells
-    from freecad_tetra.export import brep
-
-    return brep.write_cells if suffix == ".brep" else brep.write_step
-
-
-def _tet_writer(suffix: str) -> Writer:
-    if suffix == ".obj":
-        from freecad_tetra.export import obj
-
         return obj.write_skin
-    if suffix == ".vtu":
-        from freecad_tetra.export import vtu
-
-        return vtu.write_tets
-    if suffix == ".msh":
-        from freecad_tetra.export import msh
-
-        return msh.write_tets
-    if suffix == ".inp":
-        from freecad_tetra.export import inp
-
-        return inp.write_tets
-    if suffix == ".mesh":
-        from freecad_tetra.export import medit
-
-        return medit.write_tets
-    from freecad_tetra.export import vtk
-
-    return vtk.write_tets
+    if suffix == ".mesh" and order == 2:
+        raise UnsupportedFormat("Medit .mesh is written in first order only", "use order 1")
+    writer = {
+        ".vtu": vtu.write_tets,
+        ".msh": msh.write_tets,
+        ".msh2": msh.write_tets_22,
+        ".inp": inp.write_tets,
+        ".mesh": medit.write_tets,
+        ".vtk": vtk.write_tets,
+    }[suffix]
+    return lambda mesh, stream: writer(elements.elements(mesh, order), stream)
 
 
 class atomic:

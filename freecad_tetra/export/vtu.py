@@ -8,9 +8,11 @@ from typing import Any, BinaryIO
 
 import numpy as np
 
-from freecad_tetra.model import ConvexCells, TetMesh
+from freecad_tetra.export.elements import Elements
+from freecad_tetra.model import ConvexCells
 
-_TETRA, _POLYHEDRON = 10, 42
+_POLYHEDRON = 42
+_TETRA, _TRIANGLE = {1: 10, 2: 24}, {1: 5, 2: 22}
 _KINDS = {"f8": "Float64", "i8": "Int64", "i4": "Int32", "u1": "UInt8"}
 
 
@@ -40,16 +42,24 @@ def write_cells(cells: ConvexCells, stream: BinaryIO) -> None:
     _write(stream, cells.points, arrays, data, {"source": cells.point_source.astype(np.int64)})
 
 
-def write_tets(mesh: TetMesh, stream: BinaryIO) -> None:
-    """Write the tetrahedra with cell data ``solid`` and point data ``source`` (-1: Steiner)."""
-    count = len(mesh)
+def write_tets(grid: Elements, stream: BinaryIO) -> None:
+    """Write tetrahedra, then the triangles of the skin.
+
+    Cell data: ``solid`` (-1 on triangles) and ``face`` (-1 on tetrahedra); point data:
+    ``source``, the input vertex or -1.
+    """
+    sizes = [grid.tets.shape[1]] * len(grid.tets) + [grid.skin.shape[1]] * len(grid.skin)
+    kinds = [_TETRA[grid.order]] * len(grid.tets) + [_TRIANGLE[grid.order]] * len(grid.skin)
     arrays = {
-        "connectivity": mesh.tets.reshape(-1).astype(np.int64),
-        "offsets": 4 * np.arange(1, count + 1, dtype=np.int64),
-        "types": np.full(count, _TETRA, np.uint8),
+        "connectivity": np.concatenate([grid.tets.reshape(-1), grid.skin.reshape(-1)]),
+        "offsets": np.cumsum(np.array(sizes, np.int64)),
+        "types": np.array(kinds, np.uint8),
     }
-    data = {"solid": mesh.tet_solid.astype(np.int64)}
-    _write(stream, mesh.points, arrays, data, {"source": mesh.point_source.astype(np.int64)})
+    data = {
+        "solid": np.concatenate([grid.solid, np.full(len(grid.skin), -1)]),
+        "face": np.concatenate([np.full(len(grid.tets), -1), grid.face]),
+    }
+    _write(stream, grid.points, arrays, data, {"source": grid.source})
 
 
 def _write(
@@ -82,7 +92,6 @@ def _array(name: str, values: Any, components: int = 1) -> str:
     raw = little.tobytes()
     text = base64.b64encode(len(raw).to_bytes(8, "little") + raw).decode("ascii")
     kind = _KINDS[f"{little.dtype.kind}{little.dtype.itemsize}"]
-    return (
-        f'<DataArray type="{kind}" Name="{name}" NumberOfComponents="{components}" '
-        f'format="binary">\n{text}\n</DataArray>\n'
-    )
+    # meshio reads a column instead of a row when told about a single component.
+    width = f'NumberOfComponents="{components}" ' if components > 1 else ""
+    return f'<DataArray type="{kind}" Name="{name}" {width}format="binary">\n{text}\n</DataArray>\n'

@@ -4,11 +4,15 @@
 from __future__ import annotations
 
 import re
+from typing import Any
 
 import numpy as np
+import numpy.typing as npt
 
 from freecad_tetra.io.polygons import BadFile, Mesh, mesh
 from freecad_tetra.io.text import integers, numbers
+
+_Array = npt.NDArray[Any]
 
 _VERTEX = re.compile(rb"^[ \t]*v[ \t]+([^\n]*)$", re.MULTILINE)
 _FACE = re.compile(rb"^[ \t]*f[ \t]+([^\n]*)$", re.MULTILINE)
@@ -45,7 +49,7 @@ def _cut(text: bytes) -> bool:
     return bool(words) and words[0] in (b"v", b"f") and len(words) < 4
 
 
-def _points(rows: list[bytes]) -> np.ndarray:  # type: ignore[type-arg]
+def _points(rows: list[bytes]) -> _Array:
     values = numbers(b"\n".join(rows))
     if len(values) == 3 * len(rows):
         return values.reshape(-1, 3)
@@ -58,7 +62,7 @@ def _points(rows: list[bytes]) -> np.ndarray:  # type: ignore[type-arg]
     return out
 
 
-def _faces(text: bytes, points: np.ndarray, rows: list[bytes]) -> Mesh:  # type: ignore[type-arg]
+def _faces(text: bytes, points: _Array, rows: list[bytes]) -> Mesh:
     sizes = np.array([len(row.split()) for row in rows], np.int64)
     flat = integers(numbers(b"\n".join(rows)), "corners")
     if len(flat) != sizes.sum():
@@ -72,7 +76,7 @@ def _faces(text: bytes, points: np.ndarray, rows: list[bytes]) -> Mesh:  # type:
     return mesh(points, flat, sizes)
 
 
-def _absolute(text: bytes, flat: np.ndarray, sizes: np.ndarray) -> np.ndarray:  # type: ignore[type-arg]
+def _absolute(text: bytes, flat: _Array, sizes: _Array) -> _Array:
     """Resolve negative indices, which count from the line that they stand in."""
     seen, faces = 0, []
     for word in re.findall(rb"^[ \t]*([vf])[ \t]", text, re.MULTILINE):

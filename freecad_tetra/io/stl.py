@@ -4,8 +4,10 @@
 from __future__ import annotations
 
 import re
+from typing import Any
 
 import numpy as np
+import numpy.typing as npt
 
 from freecad_tetra.io.polygons import BadFile, Mesh, mesh
 from freecad_tetra.io.text import numbers
@@ -49,6 +51,6 @@ def _ascii(data: bytes) -> Mesh:
     return _soup(values.reshape(-1, 4, 3)[:, 1:])
 
 
-def _soup(corners: np.ndarray) -> Mesh:  # type: ignore[type-arg]
+def _soup(corners: npt.NDArray[Any]) -> Mesh:
     points, triangles = compacted(corners.astype(np.float64).reshape(-1, 3))
     return mesh(points, triangles)
