@@ -34,6 +34,7 @@ PYTHON_RANK = {
     "brep": 2,
     "io": 2,
     "export": 2,
+    "verify": 2,
     "fem": 2,
     "check": 2,
     "api": 3,
