@@ -21,6 +21,7 @@ from freecad_tetra.api import (
 from freecad_tetra.errors import (
     Cancelled,
     Defect,
+    InvalidPolygon,
     InvalidSolid,
     KernelMissing,
     MissingDependency,
@@ -36,6 +37,7 @@ __all__ = [
     "Cell",
     "ConvexCells",
     "Defect",
+    "InvalidPolygon",
     "InvalidSolid",
     "KernelMissing",
     "MissingDependency",

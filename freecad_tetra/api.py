@@ -19,7 +19,6 @@ from freecad_tetra.errors import (
     Cancelled,
     Defect,
     InvalidSolid,
-    KernelMissing,
     TetraError,
     UnsupportedFormat,
 )
@@ -179,30 +178,32 @@ def tetrahedralize(
 
 
 def triangulate_polygon(points: Any, loops: Sequence[Any] | None = None) -> IntArray:
-    """Triangulate a planar polygon with holes.
+    """Triangulate a planar polygon with holes, exactly; see `freecad_tetra.kernel`.
 
     Parameters
     ----------
     points : (n, 2) float64
     loops : sequence of (k,) int, optional
-        Outer loop first, then holes; by default all points form the outer loop.
+        Ids into `points`; by default all points form one loop.
 
     Returns
     -------
     (t, 3) int32
     """
-    flat = np.ascontiguousarray(points, np.float64)
-    return kernel.triangulate_polygon(flat, loops or [np.arange(len(flat), dtype=np.int32)])
+    return kernel.triangulate_polygon(points, _loops(points, loops))
 
 
-def place_guards(source: Any, **options: Any) -> Any:
-    """Place guards that see every point of a solid; needs a kernel that has it."""
-    module = kernel.load()
-    if not hasattr(module, "place_guards"):
-        raise KernelMissing("this build of _tetra_kernel has no place_guards")
-    checked = validate(source)
-    surface = checked.surface()
-    return module.place_guards(surface.vertices, surface.triangles, surface.solid_ids, options)
+def place_guards(points: Any, loops: Sequence[Any] | None = None) -> IntArray:
+    """Return vertices of a polygon with holes that together see all of it, (g,) int32.
+
+    Parameters are those of `triangulate_polygon`; at most floor((n + 2 h) / 3) guards for n
+    vertices and h holes.
+    """
+    return kernel.place_guards(points, _loops(points, loops))
+
+
+def _loops(points: Any, loops: Sequence[Any] | None) -> Sequence[Any]:
+    return [range(len(points))] if loops is None else loops
 
 
 def check(

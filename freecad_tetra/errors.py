@@ -99,6 +99,24 @@ class InvalidSolid(TetraError):
         super().__init__(text, next_step or "repair the faces named and try again")
 
 
+class InvalidPolygon(TetraError):
+    """The loops do not bound a region: they cross, overlap or name missing points.
+
+    Attributes
+    ----------
+    edges : tuple of (loop, corner)
+        Edges at fault, each from a corner of a loop to the next.
+    points : tuple of int
+    """
+
+    def __init__(
+        self, message: str, edges: Sequence[tuple[int, int]] = (), points: Sequence[int] = ()
+    ) -> None:
+        self.edges = tuple((int(a), int(b)) for a, b in edges)
+        self.points = tuple(int(p) for p in points)
+        super().__init__(message, "repair the edges named and try again")
+
+
 class UnreadableFile(TetraError):
     """A file that is missing, empty, truncated or not what its suffix says."""
 

@@ -17,13 +17,21 @@ from typing import Any
 import numpy as np
 
 from freecad_tetra._version import __version__
-from freecad_tetra.errors import Cancelled, Defect, InvalidSolid, KernelMissing, VerificationFailed
+from freecad_tetra.errors import (
+    Cancelled,
+    Defect,
+    InvalidPolygon,
+    InvalidSolid,
+    KernelMissing,
+    VerificationFailed,
+)
 from freecad_tetra.model import (
     ConvexCells,
     IntArray,
     Report,
     Solid,
     TetMesh,
+    frozen_array,
     plain,
 )
 
@@ -224,24 +232,46 @@ def tetrahedralize(
 
 
 def triangulate_polygon(points: Any, loops: Sequence[Any]) -> IntArray:
-    """Triangulate a planar polygon with holes, O(n log n).
+    """Triangulate a planar polygon with holes, exactly, O(n log n).
 
     Parameters
     ----------
     points : (n, 2) float64
     loops : sequence of (k,) int
-        Outer loop counter-clockwise, holes clockwise; ids into `points`.
+        Ids into `points`; the region is where their parity is odd. They may touch in
+        vertices and nowhere else.
 
     Returns
     -------
     (t, 3) int32
+        Counter-clockwise triangles.
+
+    Raises
+    ------
+    InvalidPolygon, KernelMissing
     """
+    return _polygon("triangulate_polygon", points, loops).reshape(-1, 3)
+
+
+def place_guards(points: Any, loops: Sequence[Any]) -> IntArray:
+    """Return vertices that together see a whole polygon with holes, (g,) int32.
+
+    At most floor((n + 2 h) / 3) for n vertices and h holes; parameters and errors are those
+    of `triangulate_polygon`, O(n log n).
+    """
+    return _polygon("place_guards", points, loops)
+
+
+def _polygon(name: str, points: Any, loops: Sequence[Any]) -> IntArray:
     module = load()
-    if not hasattr(module, "triangulate_polygon"):
-        raise KernelMissing("this build of _tetra_kernel has no triangulate_polygon")
-    flat = np.ascontiguousarray(points, np.float64)
-    rows = [np.ascontiguousarray(loop, np.int32) for loop in loops]
-    return np.asarray(module.triangulate_polygon(flat, rows), np.int32).reshape(-1, 3)
+    flat = frozen_array(points, np.float64, (-1, 2))
+    rows = [frozen_array(loop, np.int32, (-1,)) for loop in loops]
+    try:
+        return np.asarray(getattr(module, name)(flat, rows), np.int32)
+    except AttributeError as error:
+        raise KernelMissing(f"this build of _tetra_kernel has no {name}") from error
+    except module.InvalidPolygon as error:
+        raise InvalidPolygon(str(error), error.edges, error.points) from error
 
 
 def _validated(solid: Solid | Validation, progress: Progress | None) -> Validation:

@@ -15,7 +15,7 @@ from typing import Any
 import numpy as np
 import numpy.typing as npt
 
-from freecad_tetra.errors import Defect, InvalidSolid, KernelMissing
+from freecad_tetra.errors import Defect, InvalidPolygon, InvalidSolid, KernelMissing
 from freecad_tetra.model import FloatArray, IntArray
 
 LongArray = npt.NDArray[np.int64]
@@ -102,7 +102,7 @@ def _split_one(points: FloatArray, loop: LongArray, split: Split | None) -> Long
     local = np.arange(len(loop), dtype=np.int32)
     try:
         triangles = split(_flattened(corners), local)
-    except (ValueError, RuntimeError) as error:
+    except InvalidPolygon as error:
         text = f"a polygon of {len(loop)} corners cannot be triangulated: {error}"
         raise InvalidSolid([_bad(text, loop)]) from error
     if len(triangles) != len(loop) - 2:
