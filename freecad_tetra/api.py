@@ -12,8 +12,6 @@ from os import PathLike, fspath
 from pathlib import Path
 from typing import Any
 
-import numpy as np
-
 from freecad_tetra import brep, kernel
 from freecad_tetra.errors import (
     Cancelled,
