@@ -1,0 +1,115 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Stabbing queries at infinitely near places, and the order within a strip.
+#include "stacks.h"
+
+#include <algorithm>
+
+#include "tetra/errors.h"
+
+namespace tetra::fence {
+namespace {
+
+std::vector<int> triangles_seen_from_above(const Plan& plan) {
+    std::vector<int> list;
+    for (int t = 0; t < static_cast<int>(plan.facet_of.size()); ++t)
+        if (at(plan.facets, at(plan.facet_of, t)).side != 0) list.push_back(t);
+    return list;
+}
+
+std::vector<Box2> boxes_of(const Plan& plan, const std::vector<int>& triangles) {
+    std::vector<Box2> boxes;
+    boxes.reserve(triangles.size());
+    for (const int t : triangles) {
+        const Triangle& tri = at(plan.input->triangles, t);
+        const Vec3i& a = plan.at(tri[0]);
+        Box2 box{a[0], a[1], a[0], a[1]};
+        for (const int v : tri)
+            box.add({plan.at(v)[0], plan.at(v)[1], plan.at(v)[0], plan.at(v)[1]});
+        boxes.push_back(box);
+    }
+    return boxes;
+}
+
+// Is the place left of u -> v? The place is p + e (dx, dy) + e^2 (nx, ny), e infinitely small.
+bool left_of(const Vec3i& u, const Vec3i& v, const Vec3i& p, const Line& line, std::int64_t nx,
+             std::int64_t ny) {
+    const std::int64_t ex = v[0] - u[0], ey = v[1] - u[1];
+    const std::int64_t s = ex * (p[1] - u[1]) - ey * (p[0] - u[0]);
+    if (s != 0) return s > 0;
+    const std::int64_t along = ex * line.dy - ey * line.dx;
+    if (along != 0) return along > 0;
+    return ex * ny - ey * nx > 0;
+}
+
+}  // namespace
+
+Stabber::Stabber(const Plan& plan)
+    : plan_(plan), triangles_(triangles_seen_from_above(plan)), tree_(boxes_of(plan, triangles_)) {}
+
+void Stabber::facets_beside(const Line& line, bool left, const Vec3i& point,
+                            std::vector<int>& out) const {
+    out.clear();
+    const std::int64_t nx = left ? -line.dy : line.dy, ny = left ? line.dx : -line.dx;
+    const Box2 place{point[0], point[1], point[0], point[1]};
+    tree_.query([&](const Box2& box) { return box.meets(place); },
+                [&](int item) {
+                    const int t = at(triangles_, item);
+                    Triangle tri = at(plan_.input->triangles, t);
+                    const int facet = at(plan_.facet_of, t);
+                    if (at(plan_.facets, facet).side < 0) std::swap(tri[1], tri[2]);
+                    for (int k = 0; k < 3; ++k)
+                        if (!left_of(plan_.at(at(tri, k)), plan_.at(at(tri, (k + 1) % 3)), point,
+                                     line, nx, ny))
+                            return;
+                    out.push_back(facet);
+                });
+    std::sort(out.begin(), out.end());
+}
+
+void Stack::toggle(int facet) {
+    const auto place = std::find(facets_.begin(), facets_.end(), facet);
+    if (place == facets_.end())
+        facets_.push_back(facet);
+    else
+        facets_.erase(place);
+}
+
+bool Stack::below(const Entry& s, const Entry& t, const Line& line, int from, int to) const {
+    const Surface &a = at(plan_.surfaces, s.facet), &b = at(plan_.surfaces, t.facet);
+    int order = compare_heights(a, s.from, b, t.from, plan_.points[from]);
+    if (order == 0) order = compare_heights(a, s.to, b, t.to, plan_.points[to]);
+    if (order == 0)
+        order = compare_slopes(a, b, left_ ? -line.dy : line.dy, left_ ? line.dx : -line.dx);
+    if (order == 0) order = at(plan_.facets, t.facet).side - at(plan_.facets, s.facet).side;
+    return order != 0 ? order < 0 : s.facet < t.facet;
+}
+
+void Stack::sort(const Line& line, int from, int to) {
+    entries_.clear();
+    for (const int f : facets_) {
+        const Surface& s = at(plan_.surfaces, f);
+        entries_.push_back({f, height(s, plan_.points[from]), height(s, plan_.points[to])});
+    }
+    std::sort(entries_.begin(), entries_.end(),
+              [&](const Entry& s, const Entry& t) { return below(s, t, line, from, to); });
+    for (std::size_t i = 0; i < entries_.size(); ++i) facets_[i] = entries_[i].facet;
+    check();
+}
+
+void Stack::check() const {
+    std::size_t bad = facets_.size() % 2 == 0 ? facets_.size() : facets_.size() - 1;
+    for (std::size_t i = facets_.size(); i-- > 0;)
+        if (at(plan_.facets, facets_[i]).side != (i % 2 == 0 ? -1 : 1)) bad = i;
+    if (bad == facets_.size()) return;
+    Defect defect{
+        "self_crossing",
+        {},
+        {},
+        "floors and ceilings do not alternate along a vertical line: the surface crosses "
+        "or touches itself near the listed triangles; repair them or snap to a finer grid"};
+    for (std::size_t i = bad > 0 ? bad - 1 : 0; i < std::min(bad + 2, facets_.size()); ++i)
+        defect.triangles.push_back(at(plan_.facets, facets_[i]).triangle);
+    throw InvalidSolid({defect});
+}
+
+}  // namespace tetra::fence
