@@ -5,10 +5,14 @@
 namespace nb = nanobind;
 
 // One line per topic: `void bind_<topic>(nb::module_& m);`, defined in <topic>.cpp.
+namespace tetra::python {
+void bind_polygon(nb::module_& m);
+}
 
 NB_MODULE(_tetra_kernel, m) {
     m.doc() = "Exact decomposition of solids; use it through the package freecad_tetra.";
     m.def(
         "version", [] { return TETRA_VERSION; },
         "Version of the compiled kernel; equals freecad_tetra.__version__.");
+    tetra::python::bind_polygon(m);
 }
