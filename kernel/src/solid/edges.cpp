@@ -3,8 +3,9 @@
 #include "tetra/solid/edges.h"
 
 #include <algorithm>
-#include <numeric>
 #include <string>
+
+#include "groups.h"
 
 namespace tetra {
 namespace {
@@ -28,24 +29,6 @@ int forward_minus_backward(std::span<const Triangle> triangles, std::span<const 
     for (const int h : half_edges) sum += tail_of(triangles, h) == low ? 1 : -1;
     return sum;
 }
-
-struct Groups {
-    explicit Groups(std::size_t n) : parent(n) { std::iota(parent.begin(), parent.end(), 0); }
-    int root(int a) {
-        while (parent[static_cast<std::size_t>(a)] != a) {
-            int& p = parent[static_cast<std::size_t>(a)];
-            a = p = parent[static_cast<std::size_t>(p)];
-        }
-        return a;
-    }
-    // The lower id leads.
-    void join(int a, int b) {
-        a = root(a);
-        b = root(b);
-        if (a != b) parent[static_cast<std::size_t>(std::max(a, b))] = std::min(a, b);
-    }
-    std::vector<int> parent;
-};
 
 void sort_unique(std::vector<int>& ids) {
     std::sort(ids.begin(), ids.end());
