@@ -143,7 +143,7 @@ def surface_volume(vertices: FloatArray, triangles: npt.NDArray[Any]) -> float:
     """Return the signed volume enclosed by oriented `triangles`, O(m)."""
     if not len(triangles):
         return 0.0
-    corners = vertices[triangles] - vertices[triangles[:, 0]].mean(axis=0)
+    corners = vertices[triangles] - vertices[triangles[0, 0]]
     cross = np.cross(corners[:, 1], corners[:, 2])
     return float(np.einsum("ij,ij->", corners[:, 0], cross) / 6.0)
 
