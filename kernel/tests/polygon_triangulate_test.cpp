@@ -14,7 +14,6 @@
 namespace tetra {
 namespace {
 
-using testing::case_count;
 using testing::edges_of;
 using testing::IntegerPoints;
 using testing::Point;
@@ -263,85 +262,6 @@ TEST_F(Bad, inner_point_on_edge_and_outside) {
 
 TEST_F(Bad, crossing_boundary) {
     EXPECT_NE(std::string(failure(square, {{0, 2}, {2, 1}, {1, 3}, {3, 0}}).what()), "no error");
-}
-
-TEST(TriangulateRandom, polyominoes) {
-    std::mt19937_64 random(20260101);
-    const int cases = case_count(5000);
-    for (int k = 0; k < cases; ++k) {
-        const Polyomino p = testing::random_polyomino(random, 9);
-        const IntegerPoints oracle(p.points(testing::integer_map(k)));
-        const auto edges = p.boundary();
-        const auto triangles = triangulate_region(edges, oracle);
-        ASSERT_EQ(testing::flaw_of(triangles, edges, oracle), "") << "case " << k;
-        ASSERT_EQ(static_cast<int>(triangles.size()),
-                  static_cast<int>(edges.size()) - 2 * p.euler())
-            << "case " << k;
-        const auto inner = p.inner_points();
-        std::vector<PointId> some;
-        for (const PointId id : inner) {
-            if (testing::draw(random, 0, 2) == 0) some.push_back(id);
-        }
-        const auto with_inner = triangulate_region(edges, oracle, some);
-        ASSERT_EQ(testing::flaw_of(with_inner, edges, oracle), "") << "case " << k;
-        ASSERT_EQ(with_inner.size(), triangles.size() + 2 * some.size()) << "case " << k;
-    }
-}
-
-/// Points of a small grid sorted by angle around the origin: star-shaped, many equal x.
-std::vector<Point> random_star(std::mt19937_64& random, int n, int size) {
-    std::map<std::pair<double, int>, Point> by_angle;
-    for (int k = 0; k < n; ++k) {
-        const std::int64_t x = testing::draw(random, -size, size);
-        const std::int64_t y = testing::draw(random, -size, size);
-        const std::int64_t g = std::gcd(x, y);
-        if (g == 0) continue;
-        by_angle[{std::atan2(static_cast<double>(y / g), static_cast<double>(x / g)), 0}] = {x, y};
-    }
-    std::vector<Point> points;
-    for (const auto& [angle, point] : by_angle) points.push_back(point);
-    return points;
-}
-
-TEST(TriangulateRandom, star_polygons_on_small_grids) {
-    std::mt19937_64 random(7);
-    const int cases = case_count(1000);
-    int used = 0;
-    for (int k = 0; k < cases; ++k) {
-        const auto points = random_star(random, testing::draw(random, 8, 60), 6);
-        const IntegerPoints oracle(points);
-        bool around = points.size() > 3;  // the origin must be in the kernel of the star
-        for (std::size_t i = 0; i < points.size(); ++i) {
-            const Point& p = points[i];
-            const Point& q = points[(i + 1) % points.size()];
-            around = around && p[0] * q[1] - p[1] * q[0] > 0;
-        }
-        if (!around) continue;
-        ++used;
-        EXPECT_EQ(count_judged(points), points.size() - 2) << "case " << k;
-    }
-    EXPECT_GT(used, cases / 4);
-}
-
-TEST(TriangulateRandom, monotone_polygons_on_small_grids) {
-    std::mt19937_64 random(11);
-    const int cases = case_count(1000);
-    for (int k = 0; k < cases; ++k) {
-        const int width = testing::draw(random, 1, 14);
-        std::vector<Point> points{{0, 0}};
-        std::vector<Point> upper;
-        for (int x = 1; x < width; ++x) {
-            if (testing::draw(random, 0, 1) == 0)
-                points.push_back({x, -testing::draw(random, 1, 3)});
-            if (testing::draw(random, 0, 1) == 0) upper.push_back({x, testing::draw(random, 1, 3)});
-        }
-        points.push_back({width, -testing::draw(random, 0, 1)});
-        points.push_back({width, 2});
-        points.insert(points.end(), upper.rbegin(), upper.rend());
-        const auto m = testing::integer_map(k);
-        for (Point& p : points) p = {m[0] * p[0] + m[1] * p[1], m[2] * p[0] + m[3] * p[1]};
-        EXPECT_EQ(count_judged(points), points.size() - 2) << "case " << k;
-    }
 }
 
 TEST(Triangulate, calls_of_the_oracle_stay_within_n_log_n) {
