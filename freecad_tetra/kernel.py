@@ -142,7 +142,7 @@ def validate(
     start = perf_counter()
     given = dict(options or {})
     if solid.solid_ids is not None:
-        given.setdefault("solid_ids", solid.solid_ids)
+        given.setdefault("solid", solid.solid_ids)
     found = _call("validate", solid, None, solid.vertices, solid.triangles, given, progress)
     source = np.asarray(found["triangle_source"], np.int32)
     return Validation(

@@ -11,7 +11,7 @@ import pytest
 
 sys.path.insert(0, str(Path(__file__).parents[1]))
 
-from freecad_tetra.model import ConvexCells, Solid, TetMesh  # noqa: E402
+from freecad_tetra.model import ConvexCells, Solid, TetMesh
 
 
 @pytest.fixture

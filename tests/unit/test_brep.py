@@ -19,20 +19,20 @@ from freecad_tetra.model import Solid
 
 pytest.importorskip("OCP", reason="cadquery-ocp is not installed")
 
-from OCP.BRep import BRep_Builder  # noqa: E402
-from OCP.BRepAlgoAPI import BRepAlgoAPI_Cut, BRepAlgoAPI_Fuse  # noqa: E402
-from OCP.BRepPrimAPI import (  # noqa: E402
+from OCP.BRep import BRep_Builder
+from OCP.BRepAlgoAPI import BRepAlgoAPI_Cut, BRepAlgoAPI_Fuse
+from OCP.BRepPrimAPI import (
     BRepPrimAPI_MakeBox,
     BRepPrimAPI_MakeCone,
     BRepPrimAPI_MakeCylinder,
     BRepPrimAPI_MakeSphere,
     BRepPrimAPI_MakeTorus,
 )
-from OCP.BRepTools import BRepTools  # noqa: E402
-from OCP.gp import gp_Pnt  # noqa: E402
-from OCP.IGESControl import IGESControl_Writer  # noqa: E402
-from OCP.STEPControl import STEPControl_StepModelType, STEPControl_Writer  # noqa: E402
-from OCP.TopoDS import TopoDS_Compound  # noqa: E402
+from OCP.BRepTools import BRepTools
+from OCP.gp import gp_Pnt
+from OCP.IGESControl import IGESControl_Writer
+from OCP.STEPControl import STEPControl_StepModelType, STEPControl_Writer
+from OCP.TopoDS import TopoDS_Compound
 
 
 def box(x: float, y: float, z: float, at: tuple[float, float, float] = (0, 0, 0)) -> Any:
@@ -251,7 +251,7 @@ def test_objects_that_wrap_a_shape() -> None:
             return [Wrapped(box(1, 1, 1)), Wrapped(box(1, 1, 1, (5, 0, 0)))]
 
     class Assembly:
-        def toCompound(self) -> Wrapped:  # noqa: N802
+        def toCompound(self) -> Wrapped:
             return Wrapped(compound(box(1, 1, 1)))
 
     assert as_solid(Wrapped(box(2, 2, 2))).volume() == 8

@@ -177,7 +177,7 @@ def test_nearly_equal_vertices_stay_apart(tmp_path: Path) -> None:
 def test_convex_polygons_become_fans(tmp_path: Path) -> None:
     quads = [[0, 1, 3, 2], [4, 6, 7, 5], [0, 4, 5, 1], [2, 3, 7, 6], [0, 2, 6, 4], [1, 5, 7, 3]]
     v = [(x, y, z) for x in (0, 1) for y in (0, 1) for z in (0, 1)]
-    text = f"OFF\n8 6 0\n{''.join('%d %d %d' % p + chr(10) for p in v)}"
+    text = f"OFF\n8 6 0\n{''.join(f'{x} {y} {z}' + chr(10) for x, y, z in v)}"
     text += "".join("4 " + " ".join(map(str, q)) + "\n" for q in quads)
     path = tmp_path / "cube.off"
     path.write_text(text)
