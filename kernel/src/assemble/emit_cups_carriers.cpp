@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <array>
+#include <numeric>
 
 #include "tetra/errors.h"
 
@@ -17,12 +18,29 @@ struct SkinEdge {
 
 std::size_t index(int i) { return static_cast<std::size_t>(i); }
 
+// Points that are no input points, joined along the borders of owners. Such a chain lies on one
+// edge between two input points; where four facets meet, two sides may divide it differently.
 class Borders {
   public:
     Borders(const ExactMesh& mesh, const std::vector<int>& owner,
             const std::vector<int>& point_source)
-        : source_(point_source), next_(mesh.points.size(), {-1, -1}) {
-        std::vector<SkinEdge> edges;
+        : source_(point_source), parent_(mesh.points.size()), ends_(mesh.points.size(), {-1, -1}) {
+        std::iota(parent_.begin(), parent_.end(), 0);
+        const std::vector<SkinEdge> borders = borders_of(mesh, owner);
+        for (const SkinEdge& e : borders)
+            if (source_[index(e.low)] < 0 && source_[index(e.high)] < 0)
+                parent_[index(root(e.low))] = root(e.high);
+        for (const SkinEdge& e : borders) {
+            add_end(e.low, e.high);
+            add_end(e.high, e.low);
+        }
+    }
+
+    std::array<int, 2> ends_of(int p) { return ends_[index(root(p))]; }
+
+  private:
+    static std::vector<SkinEdge> borders_of(const ExactMesh& mesh, const std::vector<int>& owner) {
+        std::vector<SkinEdge> edges, borders;
         edges.reserve(3 * mesh.skin.size());
         for (std::size_t s = 0; s < mesh.skin.size(); ++s)
             for (std::size_t k = 0; k < 3; ++k) {
@@ -30,42 +48,33 @@ class Borders {
                 edges.push_back({std::min(a, b), std::max(a, b), owner[s]});
             }
         std::sort(edges.begin(), edges.end());
-        for (std::size_t i = 0; i < edges.size();) {
-            std::size_t j = i;
+        for (std::size_t i = 0, j = 0; i < edges.size(); i = j) {
             while (j < edges.size() && edges[j].low == edges[i].low &&
                    edges[j].high == edges[i].high)
                 ++j;
-            if (j - i != 2 || edges[i].owner != edges[i + 1].owner) {
-                link(edges[i].low, edges[i].high);
-                link(edges[i].high, edges[i].low);
-            }
-            i = j;
+            if (j - i != 2 || edges[i].owner != edges[i + 1].owner) borders.push_back(edges[i]);
         }
+        return borders;
     }
 
-    // The input point reached from p through neighbour `side`, along points that are none.
-    int end_of(int p, std::size_t side) const {
-        int before = p, at = next_[index(p)][side];
-        while (at >= 0 && source_[index(at)] < 0 && at != p) {
-            const auto& n = next_[index(at)];
-            const int after = n[0] == before ? n[1] : n[0];
-            before = at;
-            at = after;
-        }
-        return at >= 0 ? source_[index(at)] : -1;
+    int root(int p) {
+        while (parent_[index(p)] != p) p = parent_[index(p)] = parent_[index(parent_[index(p)])];
+        return p;
     }
 
-  private:
-    void link(int from, int to) {
-        if (source_[index(from)] >= 0) return;
-        auto& n = next_[index(from)];
-        if (n[0] >= 0 && n[1] >= 0)
+    void add_end(int made, int end) {
+        if (source_[index(made)] >= 0 || source_[index(end)] < 0) return;
+        std::array<int, 2>& ends = ends_[index(root(made))];
+        const int grid_point = source_[index(end)];
+        if (ends[0] == grid_point || ends[1] == grid_point) return;
+        if (ends[0] >= 0 && ends[1] >= 0)
             throw VerificationFailed("two sharp edges touch between their ends; move one of them");
-        n[n[0] < 0 ? 0 : 1] = to;
+        ends[ends[0] < 0 ? 0 : 1] = grid_point;
     }
 
     const std::vector<int>& source_;
-    std::vector<std::array<int, 2>> next_;  // neighbours along the border; points of no source only
+    std::vector<int> parent_;
+    std::vector<std::array<int, 2>> ends_;  // of roots: grid points
 };
 
 }  // namespace
@@ -80,15 +89,15 @@ std::vector<Carrier> skin_carriers(const ExactMesh& mesh, const std::vector<int>
             seen = seen == kNone || seen == owner[s] ? owner[s] : kSeveral;
             triangle_at[index(p)] = mesh.skin_source[s];
         }
-    const Borders borders(mesh, owner, point_source);
+    Borders borders(mesh, owner, point_source);
     std::vector<Carrier> carriers(mesh.points.size());
     for (std::size_t p = 0; p < carriers.size(); ++p) {
         if (point_source[p] >= 0) {
             carriers[p] = {CarrierKind::vertex, point_source[p], -1};
         } else if (owner_at[p] == kSeveral) {
-            const int id = static_cast<int>(p);
-            carriers[p] = {CarrierKind::edge, borders.end_of(id, 0), borders.end_of(id, 1)};
-            if (carriers[p].first < 0 || carriers[p].second < 0)
+            const std::array<int, 2> ends = borders.ends_of(static_cast<int>(p));
+            carriers[p] = {CarrierKind::edge, ends[0], ends[1]};
+            if (ends[0] < 0 || ends[1] < 0)
                 throw VerificationFailed("a point between two facets lies on no edge of the solid");
         } else if (owner_at[p] != kNone) {
             carriers[p] = {CarrierKind::facet, triangle_at[p], -1};
