@@ -59,7 +59,7 @@ def test_a_concave_cell_fails() -> None:
 def test_overlap_and_gap_of_equal_volume_fail(two_boxes: ConvexCells) -> None:
     left = shapes.cube(1)
     two = Solid(
-        np.vstack([left.vertices, left.vertices + [5, 0, 0]]),
+        np.vstack([left.vertices, left.vertices + np.array([5, 0, 0])]),
         np.vstack([left.triangles, left.triangles + 8]),
     )
     cell = list(left.triangles)
