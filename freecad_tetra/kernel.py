@@ -9,8 +9,9 @@ the caller's triangles and to B-rep faces.
 from __future__ import annotations
 
 import importlib
+import math
 from collections.abc import Callable, Mapping, Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from time import perf_counter
 from typing import Any
 
@@ -27,12 +28,14 @@ from freecad_tetra.errors import (
 )
 from freecad_tetra.model import (
     ConvexCells,
+    FloatArray,
     IntArray,
     Report,
     Solid,
     TetMesh,
     frozen_array,
     plain,
+    surface_volume,
 )
 
 Progress = Callable[[str, float], "bool | None"]
@@ -181,7 +184,7 @@ def convex_cells(
     start = perf_counter()
     found = _decompose("convex_cells", checked, options, progress)
     facet_source, facet_face = _to_caller(checked, found["facet_source"])
-    return ConvexCells(
+    cells = ConvexCells(
         points=found["points"],
         facet_offsets=found["facet_offsets"],
         facet_vertices=found["facet_vertices"],
@@ -191,8 +194,9 @@ def convex_cells(
         cell_solid=found["cell_solid"],
         point_source=found["point_source"],
         face_names=checked.solid.face_names,
-        report=_report(found["report"], checked, perf_counter() - start),
     )
+    report = _report(found["report"], checked, perf_counter() - start)
+    return replace(cells, report=_with_volume(report, checked, cells.volumes()))
 
 
 def tetrahedralize(
@@ -218,7 +222,7 @@ def tetrahedralize(
     start = perf_counter()
     found = _decompose("tetrahedralize", checked, options, progress)
     skin_source, skin_face = _to_caller(checked, found["skin_source"])
-    return TetMesh(
+    mesh = TetMesh(
         points=found["points"],
         tets=found["tets"],
         skin=found["skin"],
@@ -227,8 +231,9 @@ def tetrahedralize(
         tet_solid=found["tet_solid"],
         point_source=found["point_source"],
         face_names=checked.solid.face_names,
-        report=_report(found["report"], checked, perf_counter() - start),
     )
+    report = _report(found["report"], checked, perf_counter() - start)
+    return replace(mesh, report=_with_volume(report, checked, mesh.volumes()))
 
 
 def triangulate_polygon(points: Any, loops: Sequence[Any]) -> IntArray:
@@ -366,6 +371,13 @@ def _report(raw: Mapping[str, Any], checked: Validation, seconds: float) -> Repo
     rest = {k: v for k, v in raw.items() if k not in (*_REPORT_FIELDS, "seconds")}
     rest["surface"] = plain(checked.solid.notes)
     return Report(**{**known, "seconds": spent, "repairs": repairs, "details": rest})
+
+
+def _with_volume(report: Report, checked: Validation, pieces: FloatArray) -> Report:
+    """Add the volume of all pieces and its error against the surface that was given."""
+    total = math.fsum(pieces.tolist())
+    wanted = surface_volume(checked.solid.vertices, checked.triangles)
+    return replace(report, volume=total, volume_error=abs(total - wanted) / abs(wanted or 1.0))
 
 
 def piece_bound(notches: int) -> int:
