@@ -1,0 +1,18 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// The kernel's own check of a decomposition before it is handed out (DESIGN P6).
+#pragma once
+
+#include <string>
+
+#include "decompose.h"
+
+namespace tetra::notch {
+
+// Empty when every cell is closed, has one facet per plane, no reflex edge, every vertex inside
+// all its planes, and 6 x volume adds up to the solid's modulo 2^61 - 1; else what is wrong.
+// With plane classes in use (`exact` false) vertices may lie outside by the classes' reach and
+// volumes are compared by the caller on the evaluated points instead. Linear in the output, but
+// for the vertex test, which is vertices x facets of each cell.
+std::string find_fault(const GridSolid& solid, Decomposition& result, bool exact);
+
+}  // namespace tetra::notch

@@ -1,0 +1,141 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// The cutting loop.
+#include "decompose.h"
+
+#include <set>
+
+#include "cut.h"
+#include "merge_cells.h"
+
+namespace tetra::notch {
+namespace {
+
+Rule rule_of(NotchRule rule) {
+    return rule == NotchRule::plain ? Rule::plain
+                                    : (rule == NotchRule::random ? Rule::random : Rule::cover);
+}
+
+class Run {
+public:
+    Run(const GridSolid& solid, const CellsOptions& options, Decomposition& out,
+        std::uint64_t seed, Progress& progress)
+        : solid_(solid), options_(options), out_(out), state_(seed), progress_(progress) {}
+
+    void cut_all(std::uint64_t seed) {
+        Piece whole = build_piece(solid_, out_.classes, out_.points, out_.edges, notches_);
+        assign_notches(notches_, rule_of(options_.rule), seed);
+        out_.notches = static_cast<int>(notches_.size());
+        std::set<int> planes;
+        for (const Notch& n : notches_) planes.insert(n.assigned);
+        out_.planes = static_cast<int>(planes.size());
+        total_ = notches_.size() + 1;
+        std::vector<Piece> open;
+        open.push_back(std::move(whole));
+        while (!open.empty()) {
+            Piece piece = std::move(open.back());
+            open.pop_back();
+            step(std::move(piece), open);
+            progress_.poll("cutting notches", 1 - 1.0 / (1 + out_.cuts / double(total_)));
+        }
+    }
+
+private:
+    void step(Piece&& piece, std::vector<Piece>& open) {
+        const std::vector<int> planes = ranked_planes(out_.points, out_.edges, piece, notches_,
+                                                      rule_of(options_.rule), state_);
+        if (planes.empty()) {
+            close(piece);
+            return;
+        }
+        Section section = trace_first(piece, planes);
+        std::vector<Piece> parts =
+            cut_piece(out_.points, out_.edges, std::move(piece), section);
+        ++out_.cuts;
+        out_.splices += parts.size() == 1;
+        for (Piece& p : parts) open.push_back(std::move(p));
+    }
+
+    // A plane that contradicts the classes is left for later; another may split the trouble.
+    Section trace_first(Piece& piece, const std::vector<int>& planes) {
+        for (std::size_t i = 0;; ++i) {
+            try {
+                return trace(piece, planes[i]);
+            } catch (const Inconsistent&) {
+                if (i + 1 >= planes.size() || i >= 8) throw;
+            }
+        }
+    }
+
+    Section trace(Piece& piece, int plane) {
+        Extent extent = Extent::notch_components;
+        if (options_.extent == CutExtent::whole_plane ||
+            (options_.extent == CutExtent::random && (next_random(state_) & 1)))
+            extent = Extent::whole_plane;
+        else if (options_.rule == NotchRule::plain)
+            extent = Extent::own_notches;
+        std::vector<char> own;
+        if (extent == Extent::own_notches) own = lowest_notch(piece);
+        return trace_section(out_.points, out_.edges, piece, plane, extent, own, work_);
+    }
+
+    std::vector<char> lowest_notch(const Piece& piece) const {
+        int lowest = -1;
+        for (const int h : piece.edges) {
+            const int n = out_.edges[h].notch;
+            if (n >= 0 && (lowest < 0 || n < lowest)) lowest = n;
+        }
+        std::vector<char> own(notches_.size(), 0);
+        own[static_cast<std::size_t>(lowest)] = 1;
+        return own;
+    }
+
+    // A piece without notches: each of its surfaces is a convex cell.
+    void close(const Piece& piece) {
+        for (const int h : piece.edges)
+            if (out_.edges.alive(h)) out_.edges.straighten(h);
+        seen_.resize(static_cast<std::size_t>(out_.edges.size()), 0);
+        std::vector<int> stack;
+        for (const int seed : piece.edges) {
+            if (!out_.edges.alive(seed) || seen_[seed]) continue;
+            out_.cells.push_back(seed);
+            seen_[seed] = 1;
+            stack.push_back(seed);
+            while (!stack.empty()) {
+                const int h = stack.back();
+                stack.pop_back();
+                for (const int n : {out_.edges[h].next, out_.edges[h].twin})
+                    if (!seen_[n]) {
+                        seen_[n] = 1;
+                        stack.push_back(n);
+                    }
+            }
+        }
+        for (const int h : piece.edges) seen_[h] = 0;
+    }
+
+    const GridSolid& solid_;
+    const CellsOptions& options_;
+    Decomposition& out_;
+    std::uint64_t state_;
+    Progress& progress_;
+    std::vector<Notch> notches_;
+    std::vector<char> seen_;
+    Workspace work_;
+    std::size_t total_ = 1;
+};
+
+}  // namespace
+
+Decomposition decompose(const GridSolid& solid, const CellsOptions& options, double delta,
+                        const std::vector<char>& demoted, std::uint64_t seed,
+                        Progress& progress) {
+    Decomposition out{PointTable(solid.grid.bits), {}, {}, {}};
+    for (const Vec3i& p : solid.points) out.points.add_input(p);
+    out.classes = assign_planes(solid, delta, demoted, out.points);
+    Run(solid, options, out, options.seed, progress).cut_all(seed);
+    out.raw_cells = static_cast<int>(out.cells.size());
+    if (options.merge) out.cells = merge_cells(out.points, out.edges, out.cells);
+    return out;
+}
+
+}  // namespace tetra::notch

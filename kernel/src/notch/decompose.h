@@ -1,0 +1,24 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// One run of notch cutting over one solid: cut until no piece has a notch, then merge.
+#pragma once
+
+#include "choose_plane.h"
+#include "tetra/notch/convex_cells.h"
+
+namespace tetra::notch {
+
+// What a run leaves behind: half-edges whose surfaces are the convex cells.
+struct Decomposition {
+    PointTable points;
+    HalfEdges edges;
+    PlaneClasses classes;
+    std::vector<int> cells;  // one half-edge each
+    int notches = 0, planes = 0, cuts = 0, splices = 0, raw_cells = 0;
+};
+
+// Throws Inconsistent when plane classes contradict themselves; with delta = 0 that would be a
+// defect of the kernel or an invalid solid.
+Decomposition decompose(const GridSolid& solid, const CellsOptions& options, double delta,
+                        const std::vector<char>& demoted, std::uint64_t seed, Progress& progress);
+
+}  // namespace tetra::notch

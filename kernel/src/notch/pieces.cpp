@@ -1,0 +1,188 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Flood fill over half-edges, then grouping by holes and cavities.
+#include "pieces.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+namespace tetra::notch {
+namespace {
+
+struct Box {
+    Vec3d lo{1e300, 1e300, 1e300}, hi{-1e300, -1e300, -1e300};
+    void add(const Vec3d& p) {
+        for (int k = 0; k < 3; ++k) {
+            lo[k] = std::min(lo[k], p[k]);
+            hi[k] = std::max(hi[k], p[k]);
+        }
+    }
+    bool holds(const Box& b) const {
+        for (int k = 0; k < 3; ++k)
+            if (b.lo[k] < lo[k] - 1 || b.hi[k] > hi[k] + 1) return false;
+        return true;
+    }
+};
+
+struct Cycle {
+    int surface;
+    int key;
+    double area;
+    Box box;
+};
+
+struct Surface {
+    double volume = 0, area = 0;
+    Box box;
+    bool maybe_cavity = false;
+};
+
+class Splitter {
+public:
+    Splitter(const PointTable& points, const HalfEdges& edges, const std::vector<int>& all)
+        : points_(points), edges_(edges), all_(all) {}
+
+    std::vector<Piece> run() {
+        flood();
+        if (surfaces_.size() == 1) {
+            std::vector<Piece> one(1);
+            one[0].edges = order_;
+            return one;
+        }
+        measure();
+        parent_.resize(surfaces_.size());
+        std::iota(parent_.begin(), parent_.end(), 0);
+        join_holes();
+        join_cavities();
+        return collect();
+    }
+
+private:
+    void flood() {
+        label_.assign(static_cast<std::size_t>(edges_.size()), -1);
+        order_.reserve(all_.size());
+        for (const int seed : all_) {
+            if (label_[seed] >= 0) continue;
+            const int s = static_cast<int>(surfaces_.size());
+            surfaces_.emplace_back();
+            std::size_t head = order_.size();
+            label_[seed] = s;
+            order_.push_back(seed);
+            for (; head < order_.size(); ++head) {
+                const HalfEdge& e = edges_[order_[head]];
+                for (const int n : {e.next, e.twin})
+                    if (label_[n] < 0) {
+                        label_[n] = s;
+                        order_.push_back(n);
+                    }
+            }
+        }
+    }
+
+    void measure() {
+        std::vector<char> seen(static_cast<std::size_t>(edges_.size()), 0);
+        for (const int h : order_) {
+            if (seen[h]) continue;
+            Cycle c{label_[h], edges_[h].key, 0, {}};
+            Vec3d sum{0, 0, 0};
+            const Vec3d& o = points_.approx(edges_[h].org);
+            for (int i = h; !seen[i]; i = edges_[i].next) {
+                seen[i] = 1;
+                const Vec3d &p = points_.approx(edges_[i].org), &q = points_.approx(edges_.dest(i));
+                const Vec3d a{p[0] - o[0], p[1] - o[1], p[2] - o[2]};
+                const Vec3d b{q[0] - o[0], q[1] - o[1], q[2] - o[2]};
+                for (int k = 0; k < 3; ++k) {
+                    const int u = (k + 1) % 3, v = (k + 2) % 3;
+                    sum[k] += a[u] * b[v] - a[v] * b[u];
+                }
+                c.box.add(p);
+            }
+            const std::array<double, 4>& n = points_.unit_plane(plane_of(c.key));
+            c.area = key_sign(c.key) * (sum[0] * n[0] + sum[1] * n[1] + sum[2] * n[2]) / 2;
+            Surface& s = surfaces_[c.surface];
+            s.volume -= key_sign(c.key) * n[3] * c.area / 3;
+            s.area += std::fabs(c.area);
+            s.box.add(c.box.lo);
+            s.box.add(c.box.hi);
+            cycles_.push_back(c);
+        }
+    }
+
+    int find(int s) {
+        while (parent_[s] != s) s = parent_[s] = parent_[parent_[s]];
+        return s;
+    }
+    void unite(int a, int b) {
+        a = find(a);
+        b = find(b);
+        if (a != b) parent_[std::max(a, b)] = std::min(a, b);
+    }
+
+    // A cycle that may run clockwise may be a hole of any facet of its key around it.
+    void join_holes() {
+        std::vector<int> order(cycles_.size());
+        std::iota(order.begin(), order.end(), 0);
+        std::stable_sort(order.begin(), order.end(),
+                         [&](int a, int b) { return cycles_[a].key < cycles_[b].key; });
+        for (std::size_t i = 0, j; i < order.size(); i = j) {
+            for (j = i; j < order.size() && cycles_[order[j]].key == cycles_[order[i]].key;) ++j;
+            if (j - i == 1) continue;
+            for (std::size_t k = i; k < j; ++k) {
+                const Cycle& hole = cycles_[order[k]];
+                if (hole.area > slack(hole.box)) continue;
+                for (std::size_t m = i; m < j; ++m) {
+                    const Cycle& outer = cycles_[order[m]];
+                    if (m != k && outer.area > 0 && outer.box.holds(hole.box))
+                        unite(hole.surface, outer.surface);
+                }
+            }
+        }
+    }
+
+    static double slack(const Box& b) {
+        double size = 1;
+        for (int k = 0; k < 3; ++k) size += b.hi[k] - b.lo[k];
+        return size * 8;
+    }
+
+    // A surface that may enclose negative volume may be a cavity of any surface around it.
+    void join_cavities() {
+        for (std::size_t i = 0; i < surfaces_.size(); ++i) {
+            const Surface& inner = surfaces_[i];
+            if (inner.volume > 8 * inner.area) continue;
+            for (std::size_t j = 0; j < surfaces_.size(); ++j)
+                if (i != j && surfaces_[j].box.holds(inner.box))
+                    unite(static_cast<int>(i), static_cast<int>(j));
+        }
+    }
+
+    std::vector<Piece> collect() {
+        std::vector<int> number(surfaces_.size(), -1);
+        std::vector<Piece> pieces;
+        for (const int h : order_) {
+            int& n = number[find(label_[h])];
+            if (n < 0) {
+                n = static_cast<int>(pieces.size());
+                pieces.emplace_back();
+            }
+            pieces[n].edges.push_back(h);
+        }
+        return pieces;
+    }
+
+    const PointTable& points_;
+    const HalfEdges& edges_;
+    const std::vector<int>& all_;
+    std::vector<int> label_, order_, parent_;
+    std::vector<Surface> surfaces_;
+    std::vector<Cycle> cycles_;
+};
+
+}  // namespace
+
+std::vector<Piece> split_pieces(const PointTable& points, const HalfEdges& edges,
+                                const std::vector<int>& all) {
+    return Splitter(points, edges, all).run();
+}
+
+}  // namespace tetra::notch

@@ -1,0 +1,85 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// The points, lines and planes of a run of notch cutting: one id per place, signs by incidence first.
+#pragma once
+
+#include <vector>
+
+#include "flat_map.h"
+#include "tetra/exact/hpoint.h"
+
+namespace tetra::notch {
+
+// The support of an edge: an input edge (u, v = point ids) or two planes (p, q = plane ids).
+struct Line {
+    int u = -1, v = -1;
+    int p = -1, q = -1;
+};
+
+// A direction in exact integers, at most 4b+7 bits.
+using Direction = std::array<Int128, 3>;
+
+// Signs of `side` above this many grid steps are trusted before incidence is asked; no vertex of
+// a plane class lies farther from its plane (NOTCHES 4).
+inline constexpr double kClassReach = 16;
+
+class PointTable {
+public:
+    explicit PointTable(int grid_bits) : tolerance_(std::ldexp(1.0, grid_bits - 46)) {}
+
+    int add_input(const Vec3i& point);
+    int add_plane(const Plane& plane);  // interned; returns key = 2 id + (reversed ? 1 : 0)
+    int input_line(int u, int v);
+    int plane_line(int p, int q);
+    // The point where a line meets a plane that is not parallel to it; lies on `also` too.
+    int meet(int line, int plane, int also_p, int also_q);
+
+    void set_on(int point, int plane);
+    bool is_on(int point, int plane) const;
+    // Sign of plane (as stored) at point: 0 by incidence, else arithmetic.
+    int side(int point, int plane);
+    // Sign of coordinate `axis` of a minus that of b, exactly.
+    int compare(int a, int b, int axis) const;
+    // Orientation of three points projected along `axis`.
+    int orient(int a, int b, int c, int axis) const;
+
+    Direction cross(int p, int q) const;       // normal of p x normal of q
+    Direction direction(int line) const;
+
+    int points() const { return static_cast<int>(approx_.size()); }
+    int planes() const { return planes_.size(); }
+    int inputs() const { return static_cast<int>(inputs_.size()); }
+    int lines() const { return static_cast<int>(lines_.size()); }
+    const Vec3d& approx(int point) const { return approx_[point]; }
+    const HPoint& exact(int point) const { return exact_[point]; }
+    const Plane& plane(int id) const { return planes_[id]; }
+    const std::array<double, 4>& unit_plane(int id) const { return unit_[id]; }
+    const Line& line(int id) const { return lines_[id]; }
+    const std::vector<int>& on(int point) const { return on_[point]; }
+    int defining_line(int point) const { return line_of_[point]; }
+    const Vec3i& input(int point) const { return inputs_[point]; }
+    double distance(int point, int plane) const {
+        const std::array<double, 4>& n = unit_[plane];
+        const Vec3d& x = approx_[point];
+        return n[0] * x[0] + n[1] * x[1] + n[2] * x[2] + n[3];
+    }
+    double tolerance() const { return tolerance_; }
+
+private:
+    int intern(const HPoint& exact, const Vec3d& approx);
+
+    double tolerance_;  // bounds the error of distance() and of approx(), in grid steps
+    PlaneTable planes_;
+    std::vector<std::array<double, 4>> unit_;
+    std::vector<Vec3i> inputs_;  // input points come first
+    std::vector<HPoint> exact_;
+    std::vector<Vec3d> approx_;
+    std::vector<std::vector<int>> on_;
+    std::vector<int> line_of_;
+    std::vector<int> next_in_cell_;
+    std::vector<Line> lines_;
+    FlatMap cells_;        // hash of rounded place -> first point
+    FlatMap plane_lines_;  // (p, q) -> line
+    FlatMap meets_;        // (line, plane) -> point
+};
+
+}  // namespace tetra::notch

@@ -1,0 +1,68 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// The section of a piece by a plane: the boundary of the cut polygons Q, traced by local tests.
+#pragma once
+
+#include <array>
+#include <vector>
+
+#include "half_edges.h"
+
+namespace tetra::notch {
+
+// A set of half-edges that bounds one or more solids, closed under twin and next.
+struct Piece {
+    std::vector<int> edges;
+};
+
+// Incidence and arithmetic contradict each other (plane classes only, NOTCHES 4). Found before
+// any surgery. `planes` are the classes that may be at fault.
+struct Inconsistent {
+    const char* reason;
+    std::vector<int> planes;
+};
+
+// Where a chord ends in its facet: at a corner (the half-edge leaving it), on a crossing
+// half-edge of that facet, or at a vertex that only touches the facet (half_edge = -1).
+struct ChordEnd {
+    int point = -1;
+    int half_edge = -1;
+    bool crossing = false;
+};
+
+// A directed piece of the boundary of Q, with Q on its left seen against the plane's normal.
+struct Segment {
+    ChordEnd from, to;
+    int half_edge = -1;  // the edge on the plane it runs along; -1 for a chord
+    int key = -1;        // chord: the facet it crosses
+    int line = -1;
+    bool facets_above = false;  // across edges: both facets above the plane, else both below
+    int mate = -1;              // the segment of the twin when Q is on both sides
+    int next = -1;
+    int cycle = -1;
+    Direction direction{};
+};
+
+struct Section {
+    int plane = -1;
+    std::vector<Segment> segments;
+    std::vector<char> used;  // per segment: bounds a component that is to be cut
+};
+
+// Which components of the section are cut.
+enum class Extent { notch_components, own_notches, whole_plane };
+
+// Scratch space that lives through a run.
+struct Workspace {
+    std::vector<int> side_stamp;
+    std::vector<signed char> side;
+    std::vector<int> slot_stamp, slot;  // per key
+    int stamp = 0;
+};
+
+// Traces plane n piece. Splits edges on the plane at contacts (NOTCHES 3.5), appending the new
+// half-edges to the piece; leaves all else untouched. `own` tells which notches count for
+// Extent::own_notches. Throws Inconsistent.
+Section trace_section(PointTable& points, HalfEdges& edges, Piece& piece, int plane, Extent extent,
+                      const std::vector<char>& own, Workspace& work);
+
+}  // namespace tetra::notch
