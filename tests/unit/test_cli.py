@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""The command line ends with the right exit code, writes whole files or none, shows no traceback."""
+"""The command line ends with the right exit code, whole files or none, and never a traceback."""
 
 from __future__ import annotations
 
