@@ -6,7 +6,7 @@
 #include <chrono>
 
 #include "collapse.h"
-#include "flips.h"
+#include "flip_walk.h"
 #include "tet_complex.h"
 #include "unlock.h"
 
@@ -15,7 +15,7 @@ namespace {
 
 std::size_t at(int i) { return static_cast<std::size_t>(i); }
 
-constexpr int kEdges[6][2] = {{0, 1}, {0, 2}, {0, 3}, {1, 2}, {1, 3}, {2, 3}};
+
 
 class Compactor {
 public:
@@ -107,7 +107,7 @@ private:
     }
 
     bool reduce_at(int t) {
-        for (const auto& e : kEdges) {
+        for (const auto& e : kTetEdges) {
             Ring ring;
             if (!find_ring(mesh_, t, e[0], e[1], 3, ring) || ring.open || ring.size != 3) continue;
             Flip flip;
@@ -143,7 +143,7 @@ private:
     void neutral_at(int t) {
         const int first = rng_.below(6);
         for (int k = 0; k < 6; ++k) {
-            const auto& e = kEdges[(first + k) % 6];
+            const auto& e = kTetEdges[(first + k) % 6];
             Ring ring;
             if (!find_ring(mesh_, t, e[0], e[1], 4, ring)) continue;
             if (ring.open ? ring.size != 2 || ring.first_class != ring.last_class

@@ -297,6 +297,26 @@ void TetComplex::collapse(int p, int q) {
     stars_[at(p)].clear();
 }
 
+void TetComplex::peel(int t) {
+    assert(log_.empty());
+    std::vector<int> skin;
+    for (int i = 0; i < 4; ++i)
+        if (neighbour(t, i) < 0) skin.push_back(~neighbour(t, i));
+    assert(skin.size() == 2);
+    peeled_.push_back({facet_class(skin[0]).triangle, facet_class(skin[1]).triangle});
+    std::size_t used = 0;
+    for (int i = 0; i < 4; ++i) {
+        const int code = neighbour(t, i);
+        if (code < 0) continue;
+        FacetClass fresh = facet_class(skin[used++]);
+        fresh.plane = -2 - static_cast<int>(classes_.classes.size());
+        classes_.classes.push_back(fresh);
+        neighbours_[at(code / 4)][at(code % 4)] = ~(static_cast<int>(classes_.classes.size()) - 1);
+    }
+    alive_[at(t)] = 0;
+    --live_;
+}
+
 void TetComplex::apply(const Flip& flip) {
     struct Side {
         unsigned corners;

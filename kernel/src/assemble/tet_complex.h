@@ -128,6 +128,12 @@ public:
     // p moves onto its neighbour q. All checks are the caller's.
     void collapse(int p, int q);
 
+    // Takes out a flat tetrahedron with two skin faces: its other two become skin, each of a class
+    // of its own on the plane and face of the skin face it replaces, so that no 2-2 flip reaches it.
+    void peel(int t);
+    // Pairs of triangles of the GridSolid whose facets exchanged skin by peels.
+    const std::vector<std::array<int, 2>>& peeled_pairs() const { return peeled_; }
+
     // Positions in the log; undo_to() takes back every apply() after a mark.
     std::size_t mark() const { return log_.size(); }
     void apply(const Flip& flip);
@@ -157,6 +163,7 @@ private:
     std::vector<std::uint32_t> stamp_;  // per tetrahedron: the last star_of() that saw it
     std::uint32_t clock_ = 0;
     int live_ = 0;
+    std::vector<std::array<int, 2>> peeled_;
     std::vector<int> log_;  // per flip: killed ids, their count, count of added ones
 };
 

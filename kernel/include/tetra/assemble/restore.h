@@ -23,12 +23,11 @@ struct RestoreStats {
     int vertices_on_grid = 0;    // of these, not at the caller's coordinates in the end
     int steiner_points = 0;
     int steiner_on_grid = 0;     // of these, not on the caller's edge or triangle in the end
-    int steiner_off_plane = 0;   // facet and edge points over 1e-7 from the caller's plane
+    int steiner_off_plane = 0;   // of those, over 1e-7 from there
     int put_back = 0;            // points that could not go with all the others
     int flips = 0;               // that unblocked points
     int walks = 0;               // points that needed a walk
     int peeled = 0;              // flat skin tetrahedra deleted
-    int collapses = 0;           // Steiner points removed to unblock
     int slivers = 0;             // tetrahedra lower than 1e-6 grid steps in the end
     int quality_flips = 0;
     std::vector<int> left;       // the caller's vertices that stay on the grid
@@ -37,6 +36,9 @@ struct RestoreStats {
 
 struct Restored {
     std::vector<Vec3d> points;   // per point of the mesh, in the caller's units
+    // Facet of each triangle of the GridSolid, as compact() has them, those joined that exchanged
+    // skin by a peel: what verify_mesh() compares areas by.
+    std::vector<int> facet_of_triangle;
     RestoreStats stats;
 };
 

@@ -1,0 +1,79 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// The conditions of a peel: without the area rules the skin can fold.
+#include "peel.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "tetra/assemble/tet_quality.h"
+
+namespace tetra {
+namespace {
+
+std::size_t at(int i) { return static_cast<std::size_t>(i); }
+
+Vec3d area_vector(const Vec3d& a, const Vec3d& b, const Vec3d& c) {
+    Vec3d u, v;
+    for (std::size_t k = 0; k < 3; ++k) u[k] = b[k] - a[k], v[k] = c[k] - a[k];
+    return {u[1] * v[2] - u[2] * v[1], u[2] * v[0] - u[0] * v[2], u[0] * v[1] - u[1] * v[0]};
+}
+
+double norm(const Vec3d& v) { return std::sqrt(v[0] * v[0] + v[1] * v[1] + v[2] * v[2]); }
+
+// The pairs (first, second) of faces seen from outside the quadrangle must tile it alike.
+bool same_area(const std::array<Vec3d, 4>& corner, const std::array<int, 2>& old_faces,
+               const std::array<int, 2>& new_faces, double tolerance) {
+    double area[2] = {0, 0};
+    Vec3d sum[2] = {{0, 0, 0}, {0, 0, 0}};
+    for (int pair = 0; pair < 2; ++pair)
+        for (int face : pair == 0 ? old_faces : new_faces) {
+            const int* f = kFace[face];
+            const Vec3d n = area_vector(corner[at(f[0])], corner[at(f[1])], corner[at(f[2])]);
+            area[pair] += norm(n);
+            for (std::size_t k = 0; k < 3; ++k) sum[pair][k] += n[k];
+        }
+    const double least = area[0] * (1 - tolerance), most = area[0] * (1 + tolerance);
+    return area[1] >= least && area[1] <= most && norm(sum[0]) >= least && norm(sum[1]) >= least;
+}
+
+bool on_skin(TetComplex& mesh, int a, int b) {
+    for (int t : mesh.star_of(a)) {
+        const Tet& v = mesh.tet(t);
+        if (!TetComplex::contains(v, b)) continue;
+        for (int i = 0; i < 4; ++i)
+            if (v[at(i)] != a && v[at(i)] != b && mesh.neighbour(t, i) < 0) return true;
+    }
+    return false;
+}
+
+}  // namespace
+
+bool may_peel(TetComplex& mesh, int t, const std::vector<Vec3d>& places) {
+    std::array<int, 2> skin, inner;
+    std::size_t skins = 0, inners = 0;
+    for (int i = 0; i < 4; ++i) {
+        if (mesh.neighbour(t, i) < 0) {
+            if (skins == 2) return false;
+            skin[skins++] = i;
+        } else {
+            if (inners == 2) return false;
+            inner[inners++] = i;
+        }
+    }
+    const FacetClass& one = mesh.facet_class(~mesh.neighbour(t, skin[0]));
+    const FacetClass& two = mesh.facet_class(~mesh.neighbour(t, skin[1]));
+    if (one.face != two.face) return false;
+    const Tet& v = mesh.tet(t);
+    std::array<Vec3d, 4> caller, grid;
+    for (std::size_t k = 0; k < 4; ++k) {
+        caller[k] = places[at(v[k])];
+        grid[k] = mesh.grid_place(v[k]);
+    }
+    const double height = std::fabs(least_height(caller[0], caller[1], caller[2], caller[3]));
+    if (height >= 1e-3 * mesh.grid().step) return false;
+    if (!same_area(caller, skin, inner, 1e-9) || !same_area(grid, skin, inner, 1e-4)) return false;
+    // The skin faces miss one corner each: these two corners make the new edge.
+    return !on_skin(mesh, v[at(skin[0])], v[at(skin[1])]);
+}
+
+}  // namespace tetra

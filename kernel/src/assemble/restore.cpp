@@ -1,0 +1,369 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Moving points to the caller's coordinates: all at once, one by one, then by flips and peels.
+#include "tetra/assemble/restore.h"
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <string>
+#include <unordered_map>
+#include <utility>
+
+#include "flip_walk.h"
+#include "peel.h"
+#include "restore_targets.h"
+#include "tet_complex.h"
+#include "tetra/assemble/tet_quality.h"
+#include "tetra/errors.h"
+
+namespace tetra {
+namespace {
+
+std::size_t at(int i) { return static_cast<std::size_t>(i); }
+
+constexpr double kSliver = 1e-6;  // grid steps of height below which a flip is looked for (B6)
+
+class Restorer {
+public:
+    Restorer(TetComplex& mesh, RestoreTargets targets, const RestoreOptions& options,
+             Progress& progress)
+        : mesh_(mesh), targets_(std::move(targets)), options_(options), progress_(progress),
+          rng_{options.seed}, home_(at(mesh.point_count())), moved_(targets_.bound.size(), 1) {
+        for (int p = 0; p < mesh.point_count(); ++p) home_[at(p)] = mesh.place(p);
+    }
+
+    RestoreStats run() {
+        mesh_.release_places();
+        for (int p = 0; p < mesh_.point_count(); ++p)
+            if (targets_.bound[at(p)]) moved_[at(p)] = 0;
+        move_all();
+        for (const double floor : {kSliver, 0.0}) {
+            floor_ = floor * mesh_.grid().step;
+            move_singly();
+            unblock_all();
+        }
+        right_the_inverted();
+        return stats_;
+    }
+
+    // Flips that raise the least mean ratio of what they replace (stage 7).
+    void improve(double below) {
+        for (int t = 0; t < mesh_.id_count(); ++t) {
+            progress_.poll("restore", 0.9);
+            if (mesh_.alive(t) && quality(mesh_.tet(t)) < below) improve_at(t);
+        }
+        mesh_.forget();
+    }
+
+    void count(RestoreStats& s) const {
+        for (int p = 0; p < mesh_.point_count(); ++p) {
+            if (!targets_.bound[at(p)]) continue;
+            const bool input = !mesh_.steiner(p);
+            ++(input ? s.input_vertices : s.steiner_points);
+            if (moved_[at(p)]) continue;
+            ++(input ? s.vertices_on_grid : s.steiner_on_grid);
+            double off = 0;
+            for (std::size_t k = 0; k < 3; ++k)
+                off = std::max(off, std::fabs(mesh_.place(p)[k] - targets_.place[at(p)][k]));
+            s.steiner_off_plane += !input && off > 1e-7;
+            if (input) s.left.push_back(mesh_.carrier(p).first);
+        }
+        for (int t = 0; t < mesh_.id_count(); ++t)
+            s.slivers += mesh_.alive(t) && height(mesh_.tet(t)) < kSliver * mesh_.grid().step;
+    }
+
+private:
+    using Corners = std::array<Vec3d, 4>;
+
+    Corners corners(const Tet& t) const {
+        return {mesh_.place(t[0]), mesh_.place(t[1]), mesh_.place(t[2]), mesh_.place(t[3])};
+    }
+    double height(const Tet& t) const {
+        const Corners c = corners(t);
+        return least_height(c[0], c[1], c[2], c[3]);
+    }
+    double quality(const Tet& t) const {
+        const Corners c = corners(t);
+        return mean_ratio(c[0], c[1], c[2], c[3]);
+    }
+    bool sound(const Tet& t) const {
+        return mesh_.place_positive(t) && (floor_ == 0 || height(t) >= floor_);
+    }
+    // Sound once p is at its target.
+    bool sound_with(const Tet& t, int p) {
+        const Vec3d now = mesh_.place(p);
+        mesh_.set_place(p, targets_.place[at(p)]);
+        const bool r = sound(t);
+        mesh_.set_place(p, now);
+        return r;
+    }
+
+    void settle(int p) {
+        mesh_.set_place(p, targets_.place[at(p)]);
+        moved_[at(p)] = 1;
+    }
+    void put_back(int p) {
+        mesh_.set_place(p, home_[at(p)]);
+        moved_[at(p)] = 0;
+        ++stats_.put_back;
+    }
+
+    void move_all() {
+        floor_ = kSliver * mesh_.grid().step;
+        for (int p = 0; p < mesh_.point_count(); ++p)
+            if (targets_.bound[at(p)]) settle(p);
+        std::vector<int> queue;
+        for (int t = mesh_.id_count() - 1; t >= 0; --t)
+            if (mesh_.alive(t)) queue.push_back(t);
+        while (!queue.empty()) {
+            const int t = queue.back();
+            queue.pop_back();
+            progress_.poll("restore", 0.1);
+            if (sound(mesh_.tet(t))) continue;
+            for (int p : mesh_.tet(t)) {
+                if (!targets_.bound[at(p)] || !moved_[at(p)]) continue;
+                put_back(p);
+                for (int s : mesh_.star_of(p)) queue.push_back(s);
+            }
+        }
+    }
+
+    std::vector<int> stuck() const {
+        std::vector<int> r;
+        for (int p = 0; p < mesh_.point_count(); ++p)
+            if (targets_.bound[at(p)] && !moved_[at(p)]) r.push_back(p);
+        return r;
+    }
+
+    // The tetrahedra of p's star that forbid its move. Those unsound already don't count while
+    // they stay positive: their own turn comes.
+    std::vector<int> blockers(int p) {
+        std::vector<int> r;
+        for (int t : mesh_.star_of(p)) {
+            const Tet& v = mesh_.tet(t);
+            if (!sound_with(v, p) && !tolerated(v, p)) r.push_back(t);
+        }
+        return r;
+    }
+    bool tolerated(const Tet& t, int p) {
+        if (floor_ == 0 || sound(t)) return false;
+        const double floor = std::exchange(floor_, 0.0);
+        const bool r = sound_with(t, p);
+        floor_ = floor;
+        return r;
+    }
+
+    bool move_if_free(int p) {
+        if (!blockers(p).empty()) return false;
+        settle(p);
+        return true;
+    }
+
+    void move_singly() {
+        for (bool any = true; any;) {
+            any = false;
+            for (int p : stuck()) any = move_if_free(p) || any;
+        }
+    }
+
+    // p together with the other unmoved points of what blocks it (B4 a).
+    bool move_group(int p) {
+        std::vector<int> group{p};
+        for (int t : blockers(p))
+            for (int v : mesh_.tet(t))
+                if (targets_.bound[at(v)] && !moved_[at(v)]) group.push_back(v);
+        std::sort(group.begin(), group.end());
+        group.erase(std::unique(group.begin(), group.end()), group.end());
+        if (group.size() < 2) return false;
+        for (int v : group) settle(v);
+        for (int v : group)
+            for (int t : mesh_.star_of(v))
+                if (!sound(mesh_.tet(t))) {
+                    for (int w : group) {
+                        mesh_.set_place(w, home_[at(w)]);
+                        moved_[at(w)] = 0;
+                    }
+                    return false;
+                }
+        return true;
+    }
+
+    bool walk(int p, int sideways) {
+        const auto is_bad = [&](const Tet& t) {
+            return TetComplex::contains(t, p) && !sound_with(t, p);
+        };
+        const auto may_remove = [](int, int) { return true; };
+        FlipWalk walk(mesh_, {sideways, 7, 6}, rng_, is_bad, may_remove);
+        std::vector<int> touched;
+        const std::size_t mark = mesh_.mark();
+        if (walk.run(blockers(p), touched)) {
+            stats_.flips += walk.flips();
+            mesh_.forget();
+            settle(p);
+            return true;
+        }
+        mesh_.undo_to(mark);
+        return false;
+    }
+
+    bool peel_at(int p) {
+        const std::vector<int> flat = blockers(p);
+        bool any = false;
+        for (int t : flat) {
+            if (!mesh_.alive(t) || !may_peel(mesh_, t, targets_.place)) continue;
+            mesh_.peel(t);
+            ++stats_.peeled;
+            any = true;
+        }
+        return any && move_if_free(p);
+    }
+
+    bool unblock(int p) {
+        if (move_if_free(p) || move_group(p)) return true;
+        if (walk(p, 0) || peel_at(p)) return true;
+        for (int k = 0; k < options_.walks; ++k) {
+            progress_.poll("restore", 0.5);
+            if (!walk(p, 30)) continue;
+            ++stats_.walks;
+            return true;
+        }
+        return false;
+    }
+
+    void unblock_all() {
+        for (bool any = true; any;) {
+            any = false;
+            for (int p : stuck())
+                if (!moved_[at(p)] && unblock(p)) any = true;
+        }
+    }
+
+    // Tetrahedra that were not positive on the grid's doubles and that no move made so.
+    void right_the_inverted() {
+        for (int t = 0; t < mesh_.id_count(); ++t) {
+            if (!mesh_.alive(t) || mesh_.place_positive(mesh_.tet(t))) continue;
+            const auto is_bad = [&](const Tet& v) { return !mesh_.place_positive(v); };
+            const auto may_remove = [](int, int) { return true; };
+            std::vector<int> touched;
+            FlipWalk walk(mesh_, {0, 7, 6}, rng_, is_bad, may_remove);
+            if (walk.run({t}, touched)) {
+                mesh_.forget();
+                stats_.flips += walk.flips();
+                continue;
+            }
+            const Tet& v = mesh_.tet(t);
+            std::string where;
+            for (int p : v) where += " " + std::to_string(mesh_.carrier(p).first);
+            throw VerificationFailed(
+                "restoring left a tetrahedron without volume near the input vertices" + where +
+                "; try another direction or a finer grid");
+        }
+    }
+
+    void improve_at(int t) {
+        for (int op = 0; op < 10; ++op) {
+            Flip flip;
+            double worst = 1;
+            if (op < 4) {
+                if (!propose_face_flip(mesh_, t, op, flip)) continue;
+                for (int k : flip.killed()) worst = std::min(worst, quality(mesh_.tet(k)));
+                bool better = true;
+                for (const Tet& v : flip.added()) better = better && quality(v) > worst;
+                if (!better) continue;
+            } else {
+                Ring ring;
+                const auto& e = kTetEdges[op - 4];
+                if (!find_ring(mesh_, t, e[0], e[1], 7, ring)) continue;
+                if (ring.open && (ring.first_class != ring.last_class || ring.size < 2)) continue;
+                for (int k = 0; k < ring.size; ++k)
+                    worst = std::min(worst, quality(mesh_.tet(ring.tets[at(k)])));
+                const auto cost = [&](const Tet& v) {
+                    const double q = quality(v);
+                    return q > worst ? 1 / q : std::numeric_limits<double>::infinity();
+                };
+                if (!propose_edge_flip(mesh_, ring, cost, flip)) continue;
+                if (ring.open && !may_open_flip(mesh_, ring)) continue;
+            }
+            mesh_.apply(flip);
+            ++stats_.quality_flips;
+            return;
+        }
+    }
+
+    TetComplex& mesh_;
+    RestoreTargets targets_;
+    RestoreOptions options_;
+    Progress& progress_;
+    Rng rng_;
+    std::vector<Vec3d> home_;  // the grid's places
+    std::vector<char> moved_;  // at its target
+    RestoreStats stats_;
+    double floor_ = 0;         // least height of a sound tetrahedron, in the caller's unit
+
+public:
+    int quality_flips() const { return stats_.quality_flips; }
+};
+
+// Facets as the classes are, those of each pair of triangles joined.
+std::vector<int> joined_facets(const FacetClasses& classes,
+                               const std::vector<std::array<int, 2>>& pairs) {
+    std::vector<int> facet = classes.of_triangle;
+    for (const auto& [a, b] : pairs) {
+        const int keep = std::min(facet[at(a)], facet[at(b)]);
+        const int drop = std::max(facet[at(a)], facet[at(b)]);
+        if (keep != drop) std::replace(facet.begin(), facet.end(), drop, keep);
+    }
+    return facet;
+}
+
+// The skin triangle's source becomes the triangle of its facet that shares a directed edge with it,
+// where there is one.
+void refine_sources(ExactMesh& mesh, const GridSolid& solid, const std::vector<int>& facet) {
+    std::unordered_map<std::uint64_t, int> owner;
+    const auto key = [](int a, int b) {
+        return static_cast<std::uint64_t>(a) << 32 | static_cast<std::uint32_t>(b);
+    };
+    for (std::size_t k = 0; k < solid.triangles.size(); ++k)
+        for (std::size_t i = 0; i < 3; ++i)
+            owner.emplace(key(solid.triangles[k][i], solid.triangles[k][(i + 1) % 3]),
+                          static_cast<int>(k));
+    const auto grid_point = [&](int p) {
+        const Carrier& c = mesh.carriers[at(p)];
+        return c.kind == CarrierKind::vertex ? c.first : -1;
+    };
+    for (std::size_t s = 0; s < mesh.skin.size(); ++s)
+        for (std::size_t i = 0; i < 3; ++i) {
+            const int a = grid_point(mesh.skin[s][i]), b = grid_point(mesh.skin[s][(i + 1) % 3]);
+            if (a < 0 || b < 0) continue;
+            const auto it = owner.find(key(a, b));
+            if (it == owner.end() || facet[at(it->second)] != facet[at(mesh.skin_source[s])])
+                continue;
+            mesh.skin_source[s] = it->second;
+            break;
+        }
+}
+
+}  // namespace
+
+Restored restore(ExactMesh& mesh, const GridSolid& solid, const std::vector<Vec3d>& vertices,
+                 std::span<const int> faces, const RestoreOptions& options, Progress& progress) {
+    const auto start = std::chrono::steady_clock::now();
+    const FacetClasses classes = facet_classes(solid, faces);
+    TetComplex complex(mesh, solid.grid, classes);
+    Restorer restorer(complex, restore_targets(complex, solid, classes, vertices), options,
+                      progress);
+    Restored out;
+    out.stats = restorer.run();
+    if (options.quality_below > 0) restorer.improve(options.quality_below);
+    out.stats.quality_flips = restorer.quality_flips();
+    restorer.count(out.stats);
+    for (int& v : out.stats.left) v = solid.point_source[at(v)];
+    complex.write_back(mesh, &out.points);
+    out.facet_of_triangle = joined_facets(classes, complex.peeled_pairs());
+    refine_sources(mesh, solid, out.facet_of_triangle);
+    out.stats.seconds =
+        std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+    return out;
+}
+
+}  // namespace tetra
