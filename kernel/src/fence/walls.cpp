@@ -40,9 +40,9 @@ class Sweep {
         walls_.chains.offset.push_back(0);  // chain 0 is empty
     }
 
-    Walls run(Progress& progress) {
+    Walls run(Progress& progress, int stride) {
         const int n = static_cast<int>(plan_.lines.size());
-        for (int l = 0; l < n; ++l) {
+        for (int l = 0; l < n; l += stride) {
             progress.poll("fences", 0.5 * l / n);
             sweep_line(l);
         }
@@ -316,6 +316,8 @@ class Sweep {
 
 }  // namespace
 
-Walls sweep_walls(Plan& plan, Progress& progress) { return Sweep(plan).run(progress); }
+Walls sweep_walls(Plan& plan, Progress& progress, int stride) {
+    return Sweep(plan).run(progress, stride);
+}
 
 }  // namespace tetra::fence

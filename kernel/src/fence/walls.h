@@ -30,6 +30,7 @@ struct Walls {
     std::vector<int> edge_at, edge_at_point;
 };
 
-Walls sweep_walls(Plan& plan, Progress& progress);
+// Sweeps every stride-th line.
+Walls sweep_walls(Plan& plan, Progress& progress, int stride = 1);
 
 }  // namespace tetra::fence
