@@ -87,7 +87,9 @@ private:
                 side_of(t, vertex(other, 2))};
     }
 
-    void report(int a, int b) { found_.pairs.push_back({std::min(a, b), std::max(a, b)}); }
+    void report(int a, int b, bool flat) {
+        found_.pairs.push_back({std::min(a, b), std::max(a, b), flat});
+    }
 
     void test(int a, int b) {
         const Signs sb = sides_of(a, b);
@@ -118,7 +120,7 @@ private:
     }
 
     void judge_segment(int a, const Section& sa, int b, const Section& sb) {
-        if (sa.edge < 0 && sb.edge < 0) return report(a, b);
+        if (sa.edge < 0 && sb.edge < 0) return report(a, b, false);
         if (sa.edge < 0) return judge_edge(a, b, sb.edge);
         if (sb.edge < 0) return judge_edge(b, a, sa.edge);
         judge_two_edges(a, sa.edge, b, sb.edge);
@@ -130,7 +132,8 @@ private:
         const int h = 3 * b + i, twin = sheets_.twin[static_cast<std::size_t>(h)];
         const int here = side_of(a, apex_of(s_.triangles, h));
         const int there = side_of(a, apex_of(s_.triangles, twin));
-        if (here * there < 0 || (there == 0 && here < 0)) report(a, b);
+        if (here * there < 0) report(a, b, false);
+        if (there == 0 && here < 0) report(a, b, true);
     }
 
     // Collinear edges overlap: neither sheet may have the other's half-planes on different sides,
@@ -151,7 +154,8 @@ private:
             return compare_around(point(u), point(v), start, end, w);
         };
         const int here = place(apex(hb)), there = place(apex(twin(hb)));
-        if (here * there < 0 || (here == 0 && there < 0) || (there == 0 && here < 0)) report(a, b);
+        if (here * there < 0) report(a, b, false);
+        if ((here == 0 && there < 0) || (there == 0 && here < 0)) report(a, b, true);
     }
 
     // The projection along an axis in which coplanar triangles keep their area.
@@ -173,7 +177,7 @@ private:
         for (int i = 0; i < 3; ++i) note_inside(b, vertex(a, i), u, v);
         if (separated(a, turn_a, b, u, v) || separated(b, turn_b, a, u, v)) return;
         if (turn_a == turn_b)
-            report(a, b);
+            report(a, b, true);
         else
             ++found_.facet_contacts;
     }

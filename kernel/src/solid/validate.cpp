@@ -62,7 +62,7 @@ std::vector<int> source_vertices(const GridSolid& s, std::initializer_list<int> 
 
 std::vector<Defect> crossing_defects(const GridSolid& s, const Crossings& crossings) {
     std::vector<Defect> defects;
-    for (const auto& [a, b] : crossings.pairs) {
+    for (const auto& [a, b, flat] : crossings.pairs) {
         const int first = std::min(source_triangle(s, a), source_triangle(s, b));
         const int second = std::max(source_triangle(s, a), source_triangle(s, b));
         defects.push_back({"self_crossing",
@@ -70,7 +70,9 @@ std::vector<Defect> crossing_defects(const GridSolid& s, const Crossings& crossi
                            {first, second},
                            "triangles " + std::to_string(first) + " and " +
                                std::to_string(second) +
-                               " pass through each other; separate or unite the parts"});
+                               (flat ? " overlap in a plane or leave a wall of no thickness"
+                                     : " pass through each other") +
+                               "; separate or unite the parts"});
     }
     return defects;
 }

@@ -2,7 +2,7 @@
 // Where a closed surface meets itself: penetrations, told exactly from mere touching.
 #pragma once
 
-#include <array>
+#include <compare>
 #include <vector>
 
 #include "tetra/progress.h"
@@ -11,10 +11,16 @@
 
 namespace tetra {
 
+// Two triangles that penetrate, or (`flat`) whose surfaces cross along a common plane, cover one
+// another facing the same way, or leave a wall of no thickness. first < second.
+struct CrossingPair {
+    int first, second;
+    bool flat;
+    friend auto operator<=>(const CrossingPair&, const CrossingPair&) = default;
+};
+
 struct Crossings {
-    // Pairs of triangles (lower id first, ascending) that penetrate or cover one another with the
-    // same orientation.
-    std::vector<std::array<int, 2>> pairs;
+    std::vector<CrossingPair> pairs;  // ascending
     // Points that lie on a triangle of their solid without being its corner (Bajaj-Dey type 1, a
     // vertex in the interior of an edge included), ascending.
     std::vector<int> touching_points;
