@@ -11,9 +11,54 @@ namespace {
 
 struct Candidate {
     int plane;
-    int crossed = 0;
-    int resolved = 0;
+    int carried;  // notch edges of the piece that are assigned to it
 };
+
+// Planes of the piece's notches, most carried first.
+std::vector<Candidate> candidates_of(const std::vector<int>& planes_of_edges,
+                                     const std::vector<int>& excluded) {
+    std::vector<int> planes = planes_of_edges;
+    std::sort(planes.begin(), planes.end());
+    std::vector<Candidate> list;
+    for (std::size_t i = 0, j; i < planes.size(); i = j) {
+        for (j = i; j < planes.size() && planes[j] == planes[i];) ++j;
+        if (std::find(excluded.begin(), excluded.end(), planes[i]) == excluded.end())
+            list.push_back({planes[i], static_cast<int>(j - i)});
+    }
+    std::stable_sort(list.begin(), list.end(), [](const Candidate& a, const Candidate& b) {
+        return a.carried > b.carried;
+    });
+    return list;
+}
+
+// Ends of the notch edges of a piece, one array per coordinate for the vector units.
+struct EdgeEnds {
+    std::array<std::vector<double>, 6> at;
+    std::size_t size() const { return at[0].size(); }
+    void add(const Vec3d& u, const Vec3d& v) {
+        for (int k = 0; k < 3; ++k) {
+            at[k].push_back(u[k]);
+            at[k + 3].push_back(v[k]);
+        }
+    }
+};
+
+// How many edges a plane crosses, given up once that is `limit` or more.
+int count_crossed(const EdgeEnds& ends, const std::array<double, 4>& n, double reach, int limit) {
+    int crossed = 0;
+    for (std::size_t from = 0; from < ends.size() && crossed < limit; from += 128) {
+        const std::size_t to = std::min(from + 128, ends.size());
+        int here = 0;
+        for (std::size_t i = from; i < to; ++i) {
+            const double u = n[0] * ends.at[0][i] + n[1] * ends.at[1][i] + n[2] * ends.at[2][i];
+            const double v = n[0] * ends.at[3][i] + n[1] * ends.at[4][i] + n[2] * ends.at[5][i];
+            const double low = std::min(u, v) + n[3], high = std::max(u, v) + n[3];
+            here += low < -reach && high > reach;
+        }
+        crossed += here;
+    }
+    return crossed;
+}
 
 void cover(std::vector<Notch>& notches, std::uint64_t seed) {
     std::map<int, std::vector<int>> of_plane;
@@ -70,47 +115,32 @@ void assign_notches(std::vector<Notch>& notches, Rule rule, std::uint64_t seed) 
         n.assigned = rule == Rule::random && (next_random(state) & 1) ? n.plane_b : n.plane_a;
 }
 
-std::vector<int> ranked_planes(PointTable& points, const HalfEdges& edges, const Piece& piece,
-                               const std::vector<Notch>& notches, Rule rule,
-                               std::uint64_t& state) {
-    std::vector<int> carried;  // half-edges of notches
+int choose_plane(PointTable& points, const HalfEdges& edges, const Piece& piece,
+                 const std::vector<Notch>& notches, Rule rule, double reach,
+                 const std::vector<int>& excluded, std::uint64_t& state) {
+    EdgeEnds ends;
     std::vector<int> planes;
     int lowest = -1;
     for (const int h : piece.edges) {
         const int n = edges[h].notch;
         if (n < 0 || h > edges[h].twin) continue;
-        carried.push_back(h);
+        if (rule == Rule::cover) ends.add(points.approx(edges[h].org), points.approx(edges.dest(h)));
         planes.push_back(notches[n].assigned);
         if (lowest < 0 || n < lowest) lowest = n;
     }
-    std::sort(planes.begin(), planes.end());
-    planes.erase(std::unique(planes.begin(), planes.end()), planes.end());
-    if (planes.empty()) return planes;
-    if (rule == Rule::plain) {
-        std::stable_partition(planes.begin(), planes.end(),
-                              [&](int p) { return p == notches[lowest].assigned; });
-        return planes;
+    const std::vector<Candidate> list = candidates_of(planes, excluded);
+    if (list.empty()) return -1;
+    if (rule == Rule::random) return list[next_random(state) % list.size()].plane;
+    if (rule == Rule::plain && excluded.empty()) return notches[lowest].assigned;
+    int best = -1, fewest = static_cast<int>(planes.size()) + 1;
+    for (const Candidate& c : list) {
+        const int crossed = count_crossed(ends, points.unit_plane(c.plane), reach, fewest);
+        if (crossed >= fewest) continue;
+        best = c.plane;
+        fewest = crossed;
+        if (fewest == 0) break;
     }
-    if (rule == Rule::random) {
-        for (std::size_t i = planes.size(); i > 1; --i)
-            std::swap(planes[i - 1], planes[next_random(state) % i]);
-        return planes;
-    }
-    std::vector<Candidate> ranked;
-    for (const int p : planes) {
-        Candidate c{p};
-        for (const int h : carried) {
-            const int a = points.side(edges[h].org, p), b = points.side(edges.dest(h), p);
-            c.crossed += a * b < 0;
-            c.resolved += a == 0 && b == 0;
-        }
-        ranked.push_back(c);
-    }
-    std::stable_sort(ranked.begin(), ranked.end(), [](const Candidate& a, const Candidate& b) {
-        return a.crossed != b.crossed ? a.crossed < b.crossed : a.resolved > b.resolved;
-    });
-    for (std::size_t i = 0; i < planes.size(); ++i) planes[i] = ranked[i].plane;
-    return planes;
+    return best;
 }
 
 }  // namespace tetra::notch

@@ -14,11 +14,13 @@ enum class Rule { cover, plain, random };
 // takes each notch's first facet plane. `seed` != 0 breaks ties of the cover at random.
 void assign_notches(std::vector<Notch>& notches, Rule rule, std::uint64_t seed);
 
-// The assigned planes of a piece's notches, best first: fewest notches crossed, then most
-// resolved (NOTCHES 6.2). Empty when the piece has no notch. `plain` gives the lowest notch's
-// plane first; `random` any order.
-std::vector<int> ranked_planes(PointTable& points, const HalfEdges& edges, const Piece& piece,
-                               const std::vector<Notch>& notches, Rule rule, std::uint64_t& state);
+// The assigned plane of a piece's notches that crosses fewest notches, of those the one that is
+// assigned most (NOTCHES 6.2), counted in doubles with ends within `reach` grid steps as on the
+// plane: a choice, not a decision; -1 when the piece has no notch or all its planes are in `excluded`.
+// `plain` gives the lowest notch's plane, `random` any.
+int choose_plane(PointTable& points, const HalfEdges& edges, const Piece& piece,
+                 const std::vector<Notch>& notches, Rule rule, double reach,
+                 const std::vector<int>& excluded, std::uint64_t& state);
 
 // A splitmix64 step.
 std::uint64_t next_random(std::uint64_t& state);

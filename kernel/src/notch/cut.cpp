@@ -26,8 +26,13 @@ struct Opening {
 
 class Surgeon {
 public:
-    Surgeon(PointTable& points, HalfEdges& edges, Piece&& piece, const Section& section)
-        : points_(points), edges_(edges), piece_(std::move(piece)), section_(section) {}
+    Surgeon(PointTable& points, HalfEdges& edges, Piece&& piece, const Section& section,
+            Workspace& work)
+        : points_(points),
+          edges_(edges),
+          piece_(std::move(piece)),
+          section_(section),
+          work_(work) {}
 
     std::vector<Piece> run() {
         cuts_.resize(section_.segments.size());
@@ -37,7 +42,7 @@ public:
         add_caps();
         pair_plane_edges();
         clean();
-        return split_pieces(points_, edges_, piece_.edges);
+        return split_pieces(points_, edges_, piece_.edges, work_);
     }
 
 private:
@@ -212,6 +217,7 @@ private:
     HalfEdges& edges_;
     Piece piece_;
     const Section& section_;
+    Workspace& work_;
     std::vector<Cut> cuts_;
     std::vector<Crossing> crossings_;
     std::vector<Opening> openings_;
@@ -220,8 +226,8 @@ private:
 }  // namespace
 
 std::vector<Piece> cut_piece(PointTable& points, HalfEdges& edges, Piece&& piece,
-                             const Section& section) {
-    return Surgeon(points, edges, std::move(piece), section).run();
+                             const Section& section, Workspace& work) {
+    return Surgeon(points, edges, std::move(piece), section, work).run();
 }
 
 }  // namespace tetra::notch

@@ -10,6 +10,6 @@ namespace tetra::notch {
 // each a set of surfaces that may hang together through holes or cavities (NOTCHES 3.6, 3.10,
 // 3.12). No reflex edge arises that was none; notches on the used components are gone.
 std::vector<Piece> cut_piece(PointTable& points, HalfEdges& edges, Piece&& piece,
-                             const Section& section);
+                             const Section& section, Workspace& work);
 
 }  // namespace tetra::notch

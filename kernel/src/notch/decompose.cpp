@@ -17,9 +17,14 @@ Rule rule_of(NotchRule rule) {
 
 class Run {
 public:
-    Run(const GridSolid& solid, const CellsOptions& options, Decomposition& out,
-        std::uint64_t seed, Progress& progress)
-        : solid_(solid), options_(options), out_(out), state_(seed), progress_(progress) {}
+    Run(const GridSolid& solid, const CellsOptions& options, double delta,
+        Decomposition& out, Progress& progress)
+        : solid_(solid),
+          options_(options),
+          reach_(delta > 0 ? 2 * delta : 1e-3),
+          out_(out),
+          state_(options.seed),
+          progress_(progress) {}
 
     void cut_all(std::uint64_t seed) {
         Piece whole = build_piece(solid_, out_.classes, out_.points, out_.edges, notches_);
@@ -41,27 +46,35 @@ public:
 
 private:
     void step(Piece&& piece, std::vector<Piece>& open) {
-        const std::vector<int> planes = ranked_planes(out_.points, out_.edges, piece, notches_,
-                                                      rule_of(options_.rule), state_);
-        if (planes.empty()) {
+        Section section;
+        if (!trace_best(piece, section)) {
             close(piece);
             return;
         }
-        Section section = trace_first(piece, planes);
         std::vector<Piece> parts =
-            cut_piece(out_.points, out_.edges, std::move(piece), section);
+            cut_piece(out_.points, out_.edges, std::move(piece), section, work_);
         ++out_.cuts;
         out_.splices += parts.size() == 1;
         for (Piece& p : parts) open.push_back(std::move(p));
     }
 
-    // A plane that contradicts the classes is left for later; another may split the trouble.
-    Section trace_first(Piece& piece, const std::vector<int>& planes) {
-        for (std::size_t i = 0;; ++i) {
+    // False when the piece has no notch. A plane that contradicts the classes is left for later:
+    // another one may split the trouble.
+    bool trace_best(Piece& piece, Section& section) {
+        std::vector<int> excluded;
+        for (;;) {
+            const int plane = choose_plane(out_.points, out_.edges, piece, notches_,
+                                           rule_of(options_.rule), reach_, excluded, state_);
+            if (plane < 0) return false;
             try {
-                return trace(piece, planes[i]);
+                section = trace(piece, plane);
+                return true;
             } catch (const Inconsistent&) {
-                if (i + 1 >= planes.size() || i >= 8) throw;
+                excluded.push_back(plane);
+                if (excluded.size() > 8 || choose_plane(out_.points, out_.edges, piece, notches_,
+                                                        rule_of(options_.rule), reach_, excluded,
+                                                        state_) < 0)
+                    throw;
             }
         }
     }
@@ -115,6 +128,7 @@ private:
 
     const GridSolid& solid_;
     const CellsOptions& options_;
+    double reach_;
     Decomposition& out_;
     std::uint64_t state_;
     Progress& progress_;
@@ -132,7 +146,7 @@ Decomposition decompose(const GridSolid& solid, const CellsOptions& options, dou
     Decomposition out{PointTable(solid.grid.bits), {}, {}, {}};
     for (const Vec3i& p : solid.points) out.points.add_input(p);
     out.classes = assign_planes(solid, delta, demoted, out.points);
-    Run(solid, options, out, options.seed, progress).cut_all(seed);
+    Run(solid, options, delta, out, progress).cut_all(seed);
     out.raw_cells = static_cast<int>(out.cells.size());
     if (options.merge) out.cells = merge_cells(out.points, out.edges, out.cells);
     return out;

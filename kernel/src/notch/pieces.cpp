@@ -39,8 +39,9 @@ struct Surface {
 
 class Splitter {
 public:
-    Splitter(const PointTable& points, const HalfEdges& edges, const std::vector<int>& all)
-        : points_(points), edges_(edges), all_(all) {}
+    Splitter(const PointTable& points, const HalfEdges& edges, const std::vector<int>& all,
+             Workspace& work)
+        : points_(points), edges_(edges), all_(all), work_(work) {}
 
     std::vector<Piece> run() {
         flood();
@@ -58,21 +59,33 @@ public:
     }
 
 private:
+    bool labelled(int h) const { return work_.label_stamp[h] == work_.stamp; }
+    void set_label(int h, int surface) {
+        work_.label_stamp[h] = work_.stamp;
+        work_.label[h] = surface;
+    }
+
     void flood() {
-        label_.assign(static_cast<std::size_t>(edges_.size()), -1);
+        const auto size = static_cast<std::size_t>(edges_.size());
+        if (work_.label.size() < size) {
+            work_.label.resize(size);
+            work_.label_stamp.resize(size);
+            work_.cycle_stamp.resize(size);
+        }
+        ++work_.stamp;
         order_.reserve(all_.size());
         for (const int seed : all_) {
-            if (label_[seed] >= 0) continue;
+            if (labelled(seed)) continue;
             const int s = static_cast<int>(surfaces_.size());
             surfaces_.emplace_back();
             std::size_t head = order_.size();
-            label_[seed] = s;
+            set_label(seed, s);
             order_.push_back(seed);
             for (; head < order_.size(); ++head) {
                 const HalfEdge& e = edges_[order_[head]];
                 for (const int n : {e.next, e.twin})
-                    if (label_[n] < 0) {
-                        label_[n] = s;
+                    if (!labelled(n)) {
+                        set_label(n, s);
                         order_.push_back(n);
                     }
             }
@@ -80,14 +93,13 @@ private:
     }
 
     void measure() {
-        std::vector<char> seen(static_cast<std::size_t>(edges_.size()), 0);
         for (const int h : order_) {
-            if (seen[h]) continue;
-            Cycle c{label_[h], edges_[h].key, 0, {}};
+            if (work_.cycle_stamp[h] == work_.stamp) continue;
+            Cycle c{work_.label[h], edges_[h].key, 0, {}};
             Vec3d sum{0, 0, 0};
             const Vec3d& o = points_.approx(edges_[h].org);
-            for (int i = h; !seen[i]; i = edges_[i].next) {
-                seen[i] = 1;
+            for (int i = h; work_.cycle_stamp[i] != work_.stamp; i = edges_[i].next) {
+                work_.cycle_stamp[i] = work_.stamp;
                 const Vec3d &p = points_.approx(edges_[i].org), &q = points_.approx(edges_.dest(i));
                 const Vec3d a{p[0] - o[0], p[1] - o[1], p[2] - o[2]};
                 const Vec3d b{q[0] - o[0], q[1] - o[1], q[2] - o[2]};
@@ -120,22 +132,19 @@ private:
 
     // A cycle that may run clockwise may be a hole of any facet of its key around it.
     void join_holes() {
-        std::vector<int> order(cycles_.size());
-        std::iota(order.begin(), order.end(), 0);
-        std::stable_sort(order.begin(), order.end(),
+        std::vector<int> holes;
+        for (int c = 0; c < static_cast<int>(cycles_.size()); ++c)
+            if (cycles_[c].area <= slack(cycles_[c].box)) holes.push_back(c);
+        if (holes.empty()) return;
+        std::stable_sort(holes.begin(), holes.end(),
                          [&](int a, int b) { return cycles_[a].key < cycles_[b].key; });
-        for (std::size_t i = 0, j; i < order.size(); i = j) {
-            for (j = i; j < order.size() && cycles_[order[j]].key == cycles_[order[i]].key;) ++j;
-            if (j - i == 1) continue;
-            for (std::size_t k = i; k < j; ++k) {
-                const Cycle& hole = cycles_[order[k]];
-                if (hole.area > slack(hole.box)) continue;
-                for (std::size_t m = i; m < j; ++m) {
-                    const Cycle& outer = cycles_[order[m]];
-                    if (m != k && outer.area > 0 && outer.box.holds(hole.box))
-                        unite(hole.surface, outer.surface);
-                }
-            }
+        for (const Cycle& outer : cycles_) {
+            if (outer.area <= 0) continue;
+            auto hole = std::lower_bound(holes.begin(), holes.end(), outer.key,
+                                         [&](int c, int key) { return cycles_[c].key < key; });
+            for (; hole != holes.end() && cycles_[*hole].key == outer.key; ++hole)
+                if (&cycles_[*hole] != &outer && outer.box.holds(cycles_[*hole].box))
+                    unite(cycles_[*hole].surface, outer.surface);
         }
     }
 
@@ -160,7 +169,7 @@ private:
         std::vector<int> number(surfaces_.size(), -1);
         std::vector<Piece> pieces;
         for (const int h : order_) {
-            int& n = number[find(label_[h])];
+            int& n = number[find(work_.label[h])];
             if (n < 0) {
                 n = static_cast<int>(pieces.size());
                 pieces.emplace_back();
@@ -173,7 +182,8 @@ private:
     const PointTable& points_;
     const HalfEdges& edges_;
     const std::vector<int>& all_;
-    std::vector<int> label_, order_, parent_;
+    Workspace& work_;
+    std::vector<int> order_, parent_;
     std::vector<Surface> surfaces_;
     std::vector<Cycle> cycles_;
 };
@@ -181,8 +191,8 @@ private:
 }  // namespace
 
 std::vector<Piece> split_pieces(const PointTable& points, const HalfEdges& edges,
-                                const std::vector<int>& all) {
-    return Splitter(points, edges, all).run();
+                                const std::vector<int>& all, Workspace& work) {
+    return Splitter(points, edges, all, work).run();
 }
 
 }  // namespace tetra::notch

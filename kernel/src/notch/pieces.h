@@ -10,6 +10,6 @@ namespace tetra::notch {
 // That is decided on bounding boxes, generously: a piece may hold several solids, but a solid is
 // never torn apart. A surface without notches that encloses volume is a piece of its own.
 std::vector<Piece> split_pieces(const PointTable& points, const HalfEdges& edges,
-                                const std::vector<int>& all);
+                                const std::vector<int>& all, Workspace& work);
 
 }  // namespace tetra::notch

@@ -56,6 +56,8 @@ struct Workspace {
     std::vector<int> side_stamp;
     std::vector<signed char> side;
     std::vector<int> slot_stamp, slot;  // per key
+    std::vector<int> label_stamp, label;  // per half-edge: the surface it is on
+    std::vector<int> cycle_stamp;         // per half-edge
     int stamp = 0;
 };
 
