@@ -155,6 +155,21 @@ TEST(FenceOff, CrossingShellsAreRefused) {
     EXPECT_THROW(fence_off(fence_input(crossing), progress), InvalidSolid);
 }
 
+// R12: part of a face in common is ambiguous within one solid, whichever way the face looks.
+TEST(FenceOff, FaceContactsAreRefused) {
+    const TestSolid contact = weld(join(cube(8), map(cube(4), kAsIs, {8, 2, 2})));
+    for (const Matrix3& axis : kAxes) {
+        Progress progress;
+        try {
+            fence_off(fence_input(map(contact, axis)), progress);
+            ADD_FAILURE() << "no error";
+        } catch (const InvalidSolid& error) {
+            EXPECT_EQ(error.defects.front().kind, "face_contact");
+            EXPECT_FALSE(error.defects.front().triangles.empty());
+        }
+    }
+}
+
 TEST(FenceOff, CancelStops) {
     int calls = 0;
     Progress progress([&](const std::string&, double) { return ++calls < 1; });

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "skin_area.h"
 #include "tetra/errors.h"
 #include "wall_skin.h"
 
@@ -98,6 +99,7 @@ void fence_one_solid(const FenceInput& input, const std::vector<int>& triangles,
     const fence::Bases bases = fence::collect_bases(walls, std::move(inner));
     fence::Columns columns = fence::build_columns(plan, walls, joints, bases, progress);
     fence::add_wall_skin(plan, walls, joints, bases, columns, progress);
+    fence::check_skin_area(plan, joints, columns);
     Appender(result, point_of_input).append(plan, joints, columns, triangles, solid);
     add_counts(result.counts, plan, joints, bases, columns);
 }

@@ -74,14 +74,14 @@ void Stack::toggle(int facet) {
         facets_.erase(place);
 }
 
-bool Stack::below(const Entry& s, const Entry& t, const Line& line, int from, int to) const {
+// Sign of s against t in the strip; 0 when both lie in one plane.
+int Stack::compare(const Entry& s, const Entry& t, const Line& line, int from, int to) const {
     const Surface &a = at(plan_.surfaces, s.facet), &b = at(plan_.surfaces, t.facet);
     int order = compare_heights(a, s.from, b, t.from, plan_.points[from]);
     if (order == 0) order = compare_heights(a, s.to, b, t.to, plan_.points[to]);
     if (order == 0)
         order = compare_slopes(a, b, left_ ? -line.dy : line.dy, left_ ? line.dx : -line.dx);
-    if (order == 0) order = at(plan_.facets, t.facet).side - at(plan_.facets, s.facet).side;
-    return order != 0 ? order < 0 : s.facet < t.facet;
+    return order;
 }
 
 void Stack::sort(const Line& line, int from, int to) {
@@ -90,13 +90,18 @@ void Stack::sort(const Line& line, int from, int to) {
         const Surface& s = at(plan_.surfaces, f);
         entries_.push_back({f, height(s, plan_.points[from]), height(s, plan_.points[to])});
     }
-    std::sort(entries_.begin(), entries_.end(),
-              [&](const Entry& s, const Entry& t) { return below(s, t, line, from, to); });
+    std::sort(entries_.begin(), entries_.end(), [&](const Entry& s, const Entry& t) {
+        int order = compare(s, t, line, from, to);
+        if (order == 0) order = at(plan_.facets, t.facet).side - at(plan_.facets, s.facet).side;
+        return order != 0 ? order < 0 : s.facet < t.facet;
+    });
     for (std::size_t i = 0; i < entries_.size(); ++i) facets_[i] = entries_[i].facet;
-    check();
+    check_alternation();
+    for (std::size_t i = 1; i + 1 < entries_.size(); i += 2)
+        if (compare(entries_[i], entries_[i + 1], line, from, to) == 0) refuse_contact(i);
 }
 
-void Stack::check() const {
+void Stack::check_alternation() const {
     std::size_t bad = facets_.size() % 2 == 0 ? facets_.size() : facets_.size() - 1;
     for (std::size_t i = facets_.size(); i-- > 0;)
         if (at(plan_.facets, facets_[i]).side != (i % 2 == 0 ? -1 : 1)) bad = i;
@@ -110,6 +115,16 @@ void Stack::check() const {
     for (std::size_t i = bad > 0 ? bad - 1 : 0; i < std::min(bad + 2, facets_.size()); ++i)
         defect.triangles.push_back(at(plan_.facets, facets_[i]).triangle);
     throw InvalidSolid({defect});
+}
+
+// Rule R12: a ceiling with a floor back to back on it.
+void Stack::refuse_contact(std::size_t i) const {
+    throw InvalidSolid(
+        {{"face_contact",
+          {},
+          {at(plan_.facets, facets_[i]).triangle, at(plan_.facets, facets_[i + 1]).triangle},
+          "two shells share part of a face; join them, separate them, or make them "
+          "different solids"}});
 }
 
 }  // namespace tetra::fence

@@ -42,8 +42,9 @@ class Stack {
         int facet;
         Height from, to;
     };
-    bool below(const Entry& s, const Entry& t, const Line& line, int from, int to) const;
-    void check() const;
+    int compare(const Entry& s, const Entry& t, const Line& line, int from, int to) const;
+    void check_alternation() const;
+    [[noreturn]] void refuse_contact(std::size_t i) const;
 
     const Plan& plan_;
     bool left_;
