@@ -427,9 +427,11 @@ def points_just_inside(rng, vertices, triangles):
     real = length[:, 0] > 0
     weights = 0.15 + 0.55 * rng.dirichlet(np.ones(3), (5, real.sum()))
     spots = np.einsum("stk,tkx->stx", weights, corner[real])
-    return np.rint((spots * SCALE - 2 * (normal / np.maximum(length, 1))[real])).astype(
-        np.int64
-    ).reshape(-1, 3)
+    return (
+        np.rint(spots * SCALE - 2 * (normal / np.maximum(length, 1))[real])
+        .astype(np.int64)
+        .reshape(-1, 3)
+    )
 
 
 def is_partition(rng, vertices, triangles):
