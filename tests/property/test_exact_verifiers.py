@@ -5,7 +5,7 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
-from exact_cells import NotAPartition, recover_points, verify_partition
+from exact_cells import NotAPartition, verify_partition
 from exact_tets import NotATetMesh, verify_tets
 from random_solids import (
     MAPS,
@@ -82,18 +82,6 @@ def test_cell_with_two_facets_in_one_plane_is_refused():
     points = [(*p, 1) for p in CORNERS.tolist()]
     cell = [[0, 3, 2], [0, 2, 1], *BOX[1:]]
     refuse(surface, points, [cell], "one plane")
-
-
-def test_points_are_recovered_from_their_doubles():
-    rng = np.random.default_rng(5)
-    for seed in range(10):
-        (vertices, triangles), points, cells = boxes(seed)
-        rounded = np.array(points, dtype=float)[:, :3]
-        assert recover_points(vertices, triangles, rounded) == points
-        verify_partition(vertices, triangles, recover_points(vertices, triangles, rounded), cells)
-        rounded[int(rng.integers(len(rounded)))] += 0.37
-        with pytest.raises(NotAPartition, match="no meeting point"):
-            recover_points(vertices, triangles, rounded)
 
 
 def kuhn(seed: int):

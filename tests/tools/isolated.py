@@ -1,0 +1,96 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""Runs many small jobs in worker processes, so that a crash or a hang costs one job only."""
+
+from __future__ import annotations
+
+import multiprocessing
+import time
+from collections.abc import Callable, Iterable, Iterator
+from dataclasses import dataclass
+from multiprocessing.connection import Connection, wait
+from typing import Any
+
+
+@dataclass
+class Outcome:
+    """What became of one job: `kind` is "done", the name of an exception, "crash" or "timeout"."""
+
+    job: Any
+    kind: str
+    message: str = ""
+    value: Any = None
+
+
+def _serve(pipe: Connection, work: Callable[[Any], Any]) -> None:
+    while True:
+        job = pipe.recv()
+        try:
+            pipe.send(Outcome(job, "done", value=work(job)))
+        except Exception as error:
+            pipe.send(Outcome(job, type(error).__name__, str(error)[:2000]))
+
+
+class _Worker:
+    def __init__(self, work: Callable[[Any], Any]) -> None:
+        context = multiprocessing.get_context("fork")
+        self.pipe, theirs = context.Pipe()
+        self.process = context.Process(target=_serve, args=(theirs, work), daemon=True)
+        self.process.start()
+        theirs.close()
+        self.job: Any = None
+        self.since = 0.0
+
+    def give(self, job: Any) -> None:
+        self.job, self.since = job, time.monotonic()
+        self.pipe.send(job)
+
+    def stop(self) -> None:
+        self.process.kill()
+        self.process.join()
+        self.pipe.close()
+
+
+def run_isolated(
+    work: Callable[[Any], Any], jobs: Iterable[Any], processes: int = 1, timeout: float = 60.0
+) -> Iterator[Outcome]:
+    """Yield the outcome of each job as it ends, in any order.
+
+    Parameters
+    ----------
+    work : callable
+        Runs in a forked process; may use anything loaded before.
+    jobs : iterable
+    processes : int
+    timeout : float
+        Seconds after which a job is killed.
+    """
+    waiting = iter(jobs)
+    workers: list[_Worker] = []
+    for job in (j for _, j in zip(range(processes), waiting)):
+        workers.append(_Worker(work))
+        workers[-1].give(job)
+    while workers:
+        ready = wait([w.pipe for w in workers], timeout=0.5)
+        for worker in list(workers):
+            outcome = None
+            if worker.pipe in ready:
+                try:
+                    outcome = worker.pipe.recv()
+                except EOFError:
+                    worker.process.join()
+                    text = f"exit code {worker.process.exitcode}"
+                    outcome = Outcome(worker.job, "crash", text)
+            elif time.monotonic() - worker.since > timeout:
+                outcome = Outcome(worker.job, "timeout", f"{timeout:g} s")
+            if outcome is None:
+                continue
+            job = next(waiting, None)
+            if job is None or outcome.kind in ("crash", "timeout"):
+                worker.stop()
+                workers.remove(worker)
+                if job is not None:
+                    workers.append(_Worker(work))
+                    workers[-1].give(job)
+            else:
+                worker.give(job)
+            yield outcome
