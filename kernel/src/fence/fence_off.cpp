@@ -5,7 +5,7 @@
 #include <algorithm>
 
 #include "skin_area.h"
-#include "tetra/errors.h"
+#include "solids.h"
 #include "wall_skin.h"
 
 namespace tetra {
@@ -90,9 +90,9 @@ void add_counts(FenceCounts& counts, const fence::Plan& plan, const fence::Joint
     counts.propagated += joints.propagated;
 }
 
-void fence_one_solid(const FenceInput& input, const std::vector<int>& triangles, int solid,
-                     std::vector<int>& point_of_input, FenceResult& result, Progress& progress) {
-    fence::Plan plan = fence::make_plan(input);
+void fence_one_solid(const fence::SolidPart& part, std::vector<int>& point_of_input,
+                     FenceResult& result, Progress& progress) {
+    fence::Plan plan = fence::make_plan(part.input);
     fence::Walls walls = fence::sweep_walls(plan, progress);
     std::vector<fence::InnerPoint> inner = fence::locate_flat_points(plan, walls);
     const fence::Joints joints = fence::join_walls(plan, walls, inner, progress);
@@ -100,46 +100,18 @@ void fence_one_solid(const FenceInput& input, const std::vector<int>& triangles,
     fence::Columns columns = fence::build_columns(plan, walls, joints, bases, progress);
     fence::add_wall_skin(plan, walls, joints, bases, columns, progress);
     fence::check_skin_area(plan, joints, columns);
-    Appender(result, point_of_input).append(plan, joints, columns, triangles, solid);
+    Appender(result, point_of_input).append(plan, joints, columns, part.triangles, part.solid);
     add_counts(result.counts, plan, joints, bases, columns);
-}
-
-// Names triangles of the whole input instead of those of one solid.
-[[noreturn]] void rethrow(const InvalidSolid& error, const std::vector<int>& triangles) {
-    std::vector<Defect> defects = error.defects;
-    for (Defect& d : defects)
-        for (int& t : d.triangles) t = at(triangles, t);
-    throw InvalidSolid(std::move(defects));
 }
 
 }  // namespace
 
 FenceResult fence_off(const FenceInput& input, Progress& progress) {
-    std::vector<int> solids = input.solid;
-    if (solids.empty()) solids.assign(input.triangles.size(), 0);
-    std::vector<int> ids = solids;
-    std::sort(ids.begin(), ids.end());
-    ids.erase(std::unique(ids.begin(), ids.end()), ids.end());
-
     FenceResult result;
     std::vector<int> point_of_input(input.points.size(), -1);
-    for (const int solid : ids) {
-        FenceInput part;
-        part.points = input.points;
-        part.keep = input.keep;
-        std::vector<int> triangles;
-        for (int t = 0; t < static_cast<int>(solids.size()); ++t) {
-            if (at(solids, t) != solid) continue;
-            triangles.push_back(t);
-            part.triangles.push_back(at(input.triangles, t));
-            if (!input.owner.empty()) part.owner.push_back(at(input.owner, t));
-        }
-        try {
-            fence_one_solid(part, triangles, solid, point_of_input, result, progress);
-        } catch (const InvalidSolid& error) {
-            rethrow(error, triangles);
-        }
-    }
+    fence::for_each_solid(input, [&](const fence::SolidPart& part) {
+        fence_one_solid(part, point_of_input, result, progress);
+    });
     result.counts.steiner_points =
         static_cast<int>(std::count(result.point_source.begin(), result.point_source.end(), -1));
     return result;
