@@ -12,7 +12,7 @@ from os import PathLike, fspath
 from pathlib import Path
 from typing import Any
 
-from freecad_tetra import brep, kernel
+from freecad_tetra import brep, directions, kernel
 from freecad_tetra.errors import (
     Cancelled,
     Defect,
@@ -171,8 +171,12 @@ def tetrahedralize(
         and the errors of `as_solid`.
     """
     axis = direction if isinstance(direction, str) else [int(i) for i in direction]
-    options = {"method": method, "direction": axis, "pull_off": pull_off, "compact": compact}
-    return kernel.tetrahedralize(validate(source, progress=progress, **reading), options, progress)
+    found = validate(source, progress=progress, **reading)
+    options: dict[str, Any] = {"method": method, "direction": axis}
+    options.update(pull_off=pull_off, compact=compact)
+    if isinstance(axis, str) and axis == "auto" and not found.defects:
+        options["directions"] = directions.candidates(found.surface())
+    return kernel.tetrahedralize(found, options, progress)
 
 
 def triangulate_polygon(points: Any, loops: Sequence[Any] | None = None) -> IntArray:

@@ -133,6 +133,10 @@ class UnsupportedFormat(TetraError):
     """A suffix or a variant of a format that is not handled."""
 
 
+class BadOption(TetraError):
+    """An option has a value that the kernel does not know."""
+
+
 class VerificationFailed(TetraError):
     """The kernel's own check rejected its result; nothing was handed out."""
 

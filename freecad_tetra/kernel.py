@@ -19,6 +19,7 @@ import numpy as np
 
 from freecad_tetra._version import __version__
 from freecad_tetra.errors import (
+    BadOption,
     Cancelled,
     Defect,
     InvalidPolygon,
@@ -220,7 +221,13 @@ def tetrahedralize(
     """
     checked = _validated(solid, progress)
     start = perf_counter()
-    found = _decompose("tetrahedralize", checked, options, progress)
+    given = dict(options or {})
+    if checked.solid.face_names:  # edges between coplanar B-rep faces are kept
+        given.setdefault("face_ids", checked.solid.face_ids[checked.triangle_source])
+    found = _decompose("tetrahedralize", checked, given, progress)
+    done = found["report"].get("method", given.get("method"))
+    if given.get("method") not in (None, done):
+        raise BadOption(f"this kernel has no method {given['method']} for tetrahedra")
     skin_source, skin_face = _to_caller(checked, found["skin_source"])
     mesh = TetMesh(
         points=found["points"],
@@ -313,6 +320,10 @@ def _call(name: str, solid: Solid, source: IntArray | None, *arguments: Any) -> 
     try:
         result: dict[str, Any] = function(*arguments)
         return result
+    except ValueError as error:
+        if not str(error).startswith("option "):
+            raise  # a callback's own
+        raise BadOption(str(error), "choose another value") from error
     except module.InvalidSolid as error:
         rows = getattr(error, "defects", None) or _defects_in(error)
         raise InvalidSolid([_defect(d, solid, source) for d in rows]) from error

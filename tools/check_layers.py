@@ -35,6 +35,7 @@ PYTHON_RANK = {
     "io": 2,
     "export": 2,
     "verify": 2,
+    "directions": 2,
     "fem": 2,
     "check": 2,
     "api": 3,

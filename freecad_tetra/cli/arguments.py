@@ -122,8 +122,8 @@ def _number(word: str) -> int:
 
 def _steps(word: str) -> int:
     value = int(word)
-    if not 0 <= value <= 64:
-        raise argparse.ArgumentTypeError(f"{word} is not between 0 and 64")
+    if not 0 <= value <= 8:
+        raise argparse.ArgumentTypeError(f"{word} is not between 0 and 8")
     return value
 
 
