@@ -4,6 +4,7 @@
 from __future__ import annotations
 
 import argparse
+import re
 import sys
 import time
 from collections import Counter
@@ -30,9 +31,14 @@ def parse_arguments(description: str, count: int) -> argparse.Namespace:
     parser.add_argument("--timeout", type=float, default=60.0, help="seconds for one solid")
     parser.add_argument("--seconds", type=float, default=None, help="start no more after this")
     parser.add_argument("--shrink", type=float, default=60.0, help="seconds for each failure")
-    parser.add_argument("--keep", type=int, default=5, help="cases saved of each kind of failure")
+    parser.add_argument("--keep", type=int, default=2, help="cases saved of each failure")
     parser.add_argument("--cases", type=Path, default=ROOT / "tests" / "cases")
     return parser.parse_args()
+
+
+def stem(message: str) -> str:
+    """The message without its numbers, to tell one failure from another."""
+    return re.sub(r"[-\d.,\[\]()e ]+", " ", message)[:80]
 
 
 def save_case(
@@ -45,7 +51,7 @@ def save_case(
     def fails(candidate: Surface) -> bool:
         # In a process of its own: the failure may be a crash.
         found = next(iter(run_isolated(lambda s: check(s, options), [candidate], 1, 20.0)))
-        return found.kind == outcome.kind
+        return (found.kind, stem(found.message)) == (outcome.kind, stem(outcome.message))
 
     small = shrink(surface, fails, seconds) if seconds > 0 and fails(surface) else surface
 
@@ -89,7 +95,8 @@ def run(
         elif outcome.kind != "Unfit":
             failures.append(outcome)
             print(f"{outcome.job}: {outcome.kind} {outcome.message[:300]}", flush=True)
-            if kinds[outcome.kind] <= arguments.keep:
+            same = (outcome.kind, stem(outcome.message))
+            if sum(same == (f.kind, stem(f.message)) for f in failures) <= arguments.keep:
                 write = save_case(name, outcome, make, check, arguments.shrink)
                 print(f"  saved as {write(arguments.cases)}", flush=True)
         done = sum(kinds.values())

@@ -43,12 +43,10 @@ def lists_of_cells(found: dict[str, Any]) -> list[list[list[int]]]:
     return [facets[a:b] for a, b in itertools.pairwise(stops)]
 
 
-def decompose(surface: Surface, options: dict[str, Any]) -> dict[str, Any]:
-    """convex_cells of a valid surface."""
-    checked = validated(surface)
-    return load().convex_cells(
-        np.ascontiguousarray(surface[0], float), checked["triangles"], checked["solid"], options
-    )
+def decompose(surface: Surface, checked: dict[str, Any], options: dict[str, Any]) -> dict[str, Any]:
+    """convex_cells of a validated surface."""
+    vertices = np.ascontiguousarray(surface[0], float)
+    return load().convex_cells(vertices, checked["triangles"], checked["solid"], options)
 
 
 def exact_points(found: dict[str, Any]) -> list[Point]:
@@ -79,9 +77,9 @@ def check_cells(surface: Surface, options: dict[str, Any]) -> dict[str, float]:
     NotAPartition, Exception
         Whatever fails.
     """
-    found = decompose(surface, {"flatness": 0, "exact_points": True, **options})
-    cells = lists_of_cells(found)
-    verify_partition(*surface, exact_points(found), cells)
+    checked = validated(surface)
+    found = decompose(surface, checked, {"flatness": 0, "exact_points": True, **options})
+    verify_partition(surface[0], checked["triangles"], exact_points(found), lists_of_cells(found))
     counts = found["report"]["counts"]
     numbers = {k: counts[k] for k in ("notches", "cuts", "splices", "raw_cells", "pieces")}
     return {**numbers, "triangles": len(surface[1])}

@@ -125,7 +125,8 @@ def check_cell(name: str, facets: Sequence[Sequence[Point]]) -> list[Plane]:
     require(len(facets) >= 4, f"{name} has {len(facets)} facets")
     edges: set[tuple[Point, Point]] = set()
     for cycle in facets:
-        require(len(set(cycle)) == len(cycle) >= 3, f"{name}: a facet repeats a vertex")
+        require(len(cycle) >= 3, f"{name}: a facet has {len(cycle)} vertices")
+        require(len(set(cycle)) == len(cycle), f"{name}: a facet repeats a vertex")
         for edge in zip(cycle, [*cycle[1:], cycle[0]]):
             require(edge not in edges, f"{name}: a directed edge occurs twice")
             edges.add(edge)
