@@ -10,6 +10,7 @@ from __future__ import annotations
 
 import argparse
 import contextlib
+import ctypes
 import os
 import signal
 import sys
@@ -20,6 +21,7 @@ from freecad_tetra.export import temporary_name
 
 CANCELLED = 130
 _PATIENCE = 0.25  # seconds that the child has to stop by itself
+_SET_PARENT_DEATH_SIGNAL = 1
 _READING = ("start", "read", "tessellate")
 
 
@@ -44,6 +46,7 @@ def _work(arguments: argparse.Namespace, writing: int) -> int:
     """Be the child; whatever happens, return a code and flush."""
     from freecad_tetra.cli import commands
 
+    _die_with_parent()
     signal.signal(signal.SIGINT, _interrupt_once)
     signal.signal(signal.SIGTERM, _interrupt_once)
     code = CANCELLED
@@ -61,6 +64,13 @@ def _work(arguments: argparse.Namespace, writing: int) -> int:
         except (BrokenPipeError, ValueError):
             code = code or CANCELLED
     return code
+
+
+def _die_with_parent() -> None:
+    """Ask Linux to end this process when the parent is killed, and not to work on for nobody."""
+    if sys.platform == "linux":
+        with contextlib.suppress(OSError, AttributeError):
+            ctypes.CDLL(None).prctl(_SET_PARENT_DEATH_SIGNAL, int(signal.SIGKILL))
 
 
 def _interrupt_once(number: int, frame: FrameType | None) -> None:

@@ -312,6 +312,19 @@ def test_a_crash_becomes_an_exit_code(
     assert not list(tmp_path.iterdir())
 
 
+def test_the_worker_dies_with_its_parent(tmp_path: Path) -> None:
+    started = subprocess.Popen(
+        [*COMMAND, "info", str(torus(tmp_path, 500))], stdout=subprocess.PIPE, text=True
+    )
+    assert started.stdout is not None
+    time.sleep(1.5)
+    started.kill()
+    started.wait()
+    asked = time.monotonic()
+    assert started.stdout.read() == "", "the pipe closes when the last of both has gone"
+    assert time.monotonic() - asked < 0.5
+
+
 def test_out_of_memory_is_told(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
 ) -> None:
