@@ -187,7 +187,8 @@ def _info(arguments: argparse.Namespace, meter: Meter) -> int:
     found = api.validate(arguments.input, progress=meter, **_reading(arguments))
     meter.clear()
     counts = {"vertices": len(found.solid.vertices), "facets": len(found.solid.triangles)}
-    counts.update(found.counts)
+    if not found.defects:  # nothing is counted in what bounds no solid
+        counts.update(found.counts)
     notches = counts.get("notches")
     bounds = {} if notches is None else {"bajaj_dey": piece_bound(notches)}
     told = [(label.replace("_", " "), str(value)) for label, value in counts.items()]
@@ -212,7 +213,9 @@ def _info(arguments: argparse.Namespace, meter: Meter) -> int:
 
 def _info_lines(found: Validation, bounds: Mapping[str, int]) -> list[tuple[str, str]]:
     solid = found.solid
-    rows = [("volume", f"{abs(solid.volume()):.12g}"), ("defects", str(len(found.defects)))]
+    rows = [("defects", str(len(found.defects)))]
+    if not found.defects:
+        rows.insert(0, ("volume", f"{abs(solid.volume()):.12g}"))
     if "bajaj_dey" in bounds:
         rows.append(("pieces at most", f"{bounds['bajaj_dey']} (r^2/2 + r/2 + 1)"))
     if solid.face_names:

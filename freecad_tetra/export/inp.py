@@ -15,12 +15,15 @@ _KIND = {1: "C3D4", 2: "C3D10"}
 
 
 def write_tets(grid: Elements, stream: BinaryIO) -> None:
-    """Write *NODE, *ELEMENT, *ELSET per solid, *NSET and *SURFACE per face; ids from 1."""
+    """Write *NODE, *ELEMENT, *ELSET per solid, *NSET and *SURFACE per face; ids from 1.
+
+    A number may have 20 characters, which 13 digits with sign and exponent fill.
+    """
     stream.write(b"*HEADING\nfreecad_tetra\n*NODE, NSET=Nall\n")
     for start in range(0, len(grid.points), 4096):
         block = grid.points[start : start + 4096].tolist()
         rows = [
-            f"{start + i + 1}, {x:.15g}, {y:.15g}, {z:.15g}\n" for i, (x, y, z) in enumerate(block)
+            f"{start + i + 1}, {x:.13g}, {y:.13g}, {z:.13g}\n" for i, (x, y, z) in enumerate(block)
         ]
         stream.write("".join(rows).encode())
     for i, name in grid.solid_names.items():
