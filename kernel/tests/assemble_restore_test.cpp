@@ -138,28 +138,36 @@ TEST(Restore, AFlatInnerTetrahedronIsFlippedAway) {
     expect_verified(r.mesh, r.solid, vertices, restored);
 }
 
-// Two legs under the square leave a valley below the edge 1-3: no flip takes the flat one away.
-Refined square_on_legs() {
-    std::vector<Vec3i> points = kCreased;
-    points[4] = {200, 200, -900};
-    points[5] = {800, 800, -900};
-    return mesh_of(points, {{0, 1, 2, 3}, {4, 0, 1, 3}, {5, 1, 2, 3}});
+// Under the square eight tetrahedra fan round the edge 1-3: too many for an edge flip.
+Refined square_on_fan() {
+    std::vector<Vec3i> points(kCreased.begin(), kCreased.begin() + 4);
+    std::vector<std::array<int, 4>> tets{{0, 1, 2, 3}};
+    int last = 0;
+    for (int k = 1; k <= 7; ++k) {
+        const double angle = k * std::acos(-1.0) / 8;
+        const auto along = static_cast<std::int64_t>(500 - 500 * std::cos(angle));
+        points.push_back({along, along, static_cast<std::int64_t>(-700 * std::sin(angle))});
+        tets.push_back({1, 3, last, k + 3});
+        last = k + 3;
+    }
+    tets.push_back({1, 3, last, 2});
+    return mesh_of(points, tets);
 }
 
 TEST(Restore, AFlatSkinTetrahedronOfOneFaceIsPeeled) {
-    Refined r = square_on_legs();
+    Refined r = square_on_fan();
     ASSERT_EQ(testing_support::flaw_of(r.mesh, r.solid), "");
     const std::vector<Vec3d> vertices = flat_places(r);
     Progress progress;
     const Restored restored = restore(r.mesh, r.solid, vertices, {}, {}, progress);
     EXPECT_EQ(restored.stats.vertices_on_grid, 0);
     EXPECT_EQ(restored.stats.peeled, 1);
-    EXPECT_EQ(r.mesh.tets.size(), 2u);
+    EXPECT_EQ(r.mesh.tets.size(), 8u);
     expect_verified(r.mesh, r.solid, vertices, restored);
 }
 
 TEST(Restore, BetweenTwoFacesNothingIsPeeled) {
-    Refined r = square_on_legs();
+    Refined r = square_on_fan();
     std::vector<int> faces;
     for (std::size_t k = 0; k < r.solid.triangles.size(); ++k) faces.push_back(static_cast<int>(k));
     const std::vector<Vec3d> vertices = flat_places(r);

@@ -22,6 +22,7 @@ public:
     Compactor(TetComplex& mesh, const CompactOptions& options, Progress& progress)
         : mesh_(mesh), options_(options), progress_(progress), rng_{options.seed} {
         dirty_.assign(at(mesh.point_count()), 1);
+        gone_.assign(at(mesh.point_count()), 0);
         for (const CarrierKind kind : {CarrierKind::edge, CarrierKind::facet, CarrierKind::inner})
             for (int p = 0; p < mesh.point_count(); ++p)
                 if (mesh.carrier(p).kind == kind) steiner_.push_back(p);
@@ -68,7 +69,7 @@ private:
     }
 
     void drop_removed() {
-        std::erase_if(steiner_, [&](int p) { return mesh_.star_of(p).empty(); });
+        std::erase_if(steiner_, [&](int p) { return gone_[at(p)]; });
     }
 
     void collapse_all() {
@@ -80,6 +81,7 @@ private:
                 dirty_[at(p)] = 0;
                 if (!try_collapse(mesh_, p, scratch_)) continue;
                 touch(scratch_.touched);
+                gone_[at(p)] = 1;
                 ++stats_.collapses;
                 moved = true;
             }
@@ -98,6 +100,7 @@ private:
                                                 static_cast<double>(order.size()));
             if (!unlock_collapse(mesh_, order[i], walk, rng_, scratch_)) continue;
             touch(scratch_.touched);
+            gone_[at(order[i])] = 1;
             ++moved;
         }
         stats_.unlocked += moved;
@@ -175,7 +178,8 @@ private:
     Rng rng_;
     CompactStats stats_;
     CollapseScratch scratch_;
-    std::vector<char> dirty_;
+    std::vector<char> dirty_;    // per point: its star changed since its last try
+    std::vector<char> gone_;     // per point: collapsed
     std::vector<int> steiner_;  // still there: on edges first, then in facets, then inside
 };
 
