@@ -12,14 +12,14 @@ public:
     Checker(const GridSolid& solid, Decomposition& result, bool exact)
         : solid_(solid), r_(result), exact_(exact) {}
 
-    std::string run() {
+    Fault run() {
         seen_.assign(static_cast<std::size_t>(r_.edges.size()), 0);
         for (const int seed : r_.cells) {
             gather(seed);
-            if (std::string fault = check_cell(); !fault.empty()) return fault;
+            if (Fault fault = check_cell(); !fault.reason.empty()) return fault;
             if (exact_) add_volume();
         }
-        if (exact_ && total_ != solid_volume()) return "volumes do not add up";
+        if (exact_ && total_ != solid_volume()) return {"volumes do not add up", {}};
         return {};
     }
 
@@ -45,33 +45,38 @@ private:
         vertices_.erase(std::unique(vertices_.begin(), vertices_.end()), vertices_.end());
     }
 
-    std::string check_cell() {
+    Fault check_cell() {
         std::vector<int> planes;
         for (const int f : facets_) planes.push_back(plane_of(r_.edges[f].key));
         std::sort(planes.begin(), planes.end());
-        if (std::adjacent_find(planes.begin(), planes.end()) != planes.end())
-            return "two facets of a cell on one plane";
+        const auto twice = std::adjacent_find(planes.begin(), planes.end());
+        if (twice != planes.end()) return {"two facets of a cell on one plane", {*twice}};
         for (const int h : cell_) {
             const HalfEdge& e = r_.edges[h];
             if (r_.edges[e.twin].twin != h || r_.edges[e.next].prev != h)
-                return "a cell is not closed";
-            if (e.notch >= 0) return "a cell kept a notch";
+                return {"a cell is not closed", {}};
+            if (e.notch >= 0) return {"a cell kept a notch", {}};
         }
         // Euler's formula of a sphere: V - E + F = 2.
         if (static_cast<long>(vertices_.size()) - static_cast<long>(cell_.size() / 2) +
                 static_cast<long>(facets_.size()) !=
             2)
-            return "a cell is not a sphere";
+            return {"a cell is not a sphere", planes};
         for (const int f : facets_) {
             const int plane = plane_of(r_.edges[f].key), sign = key_sign(r_.edges[f].key);
             for (const int v : vertices_) {
                 if (sign * r_.points.distance(v, plane) < -kClassReach) continue;
                 if (sign * r_.points.distance(v, plane) > kClassReach ||
                     (exact_ && r_.points.side(v, plane) * sign > 0))
-                    return "a cell is not convex";
+                    return {"a cell is not convex", with(plane, r_.points.on(v))};
             }
         }
         return {};
+    }
+
+    static std::vector<int> with(int plane, std::vector<int> planes) {
+        planes.push_back(plane);
+        return planes;
     }
 
     std::array<std::uint64_t, 3> residue(int v) {
@@ -131,7 +136,7 @@ private:
 
 }  // namespace
 
-std::string find_fault(const GridSolid& solid, Decomposition& result, bool exact) {
+Fault find_fault(const GridSolid& solid, Decomposition& result, bool exact) {
     return Checker(solid, result, exact).run();
 }
 

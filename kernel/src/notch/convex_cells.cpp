@@ -57,6 +57,8 @@ struct Attempt {
     bool exact = true;
 };
 
+constexpr int kMaxRestarts = 24;
+
 class Cutter {
 public:
     Cutter(const std::vector<Vec3d>& vertices, const CellsOptions& options, Progress& progress)
@@ -78,29 +80,26 @@ private:
     // exact planes only, which always work (NOTCHES 4).
     Attempt attempt(const GridSolid& solid, std::uint64_t seed) {
         std::vector<char> demoted;
-        Attempt a{{PointTable(solid.grid.bits), {}, {}, {}}};
-        for (a.delta = options_.flatness; a.delta > 0;) {
-            std::vector<int> at_fault;
-            try {
-                a.result = decompose(solid, options_, a.delta, demoted, seed, progress_);
-                a.exact = is_exact(a.result.classes);
-                const std::string fault = find_fault(solid, a.result, a.exact);
-                if (fault.empty()) return a;
-            } catch (const Inconsistent& e) {
-                at_fault = e.planes;
+        Attempt a{Decomposition(solid.grid.bits)};
+        for (a.delta = options_.flatness; a.delta > 0 && a.restarts <= kMaxRestarts;) {
+            a.result = decompose(solid, options_, a.delta, demoted, seed, progress_);
+            a.exact = is_exact(a.result.classes);
+            std::vector<std::vector<int>> at_fault = a.result.contradictions;
+            if (at_fault.empty()) {
+                Fault fault = find_fault(solid, a.result, a.exact);
+                if (fault.reason.empty()) return a;
+                at_fault.push_back(std::move(fault.planes));
             }
             ++a.restarts;
-            if (a.restarts > 24 || !demote(solid, a.delta, at_fault, demoted, a.demoted)) break;
+            if (!demote(a.result.classes, at_fault, demoted, a.demoted)) break;
         }
         a.delta = 0;
         a.exact = true;
-        try {
-            a.result = decompose(solid, options_, 0, {}, seed, progress_);
-        } catch (const Inconsistent& e) {
-            throw VerificationFailed(std::string("notch cutting: ") + e.reason);
-        }
-        const std::string fault = find_fault(solid, a.result, true);
-        if (!fault.empty()) throw VerificationFailed("notch cutting: " + fault);
+        a.result = decompose(solid, options_, 0, {}, seed, progress_);
+        if (!a.result.contradictions.empty())
+            throw VerificationFailed("notch cutting: a section does not close");
+        const Fault fault = find_fault(solid, a.result, true);
+        if (!fault.reason.empty()) throw VerificationFailed("notch cutting: " + fault.reason);
         return a;
     }
 
@@ -109,24 +108,26 @@ private:
                classes.is_class.end();
     }
 
-    // Marks the exact planes of all triangles in the classes at fault; false if there are none.
-    bool demote(const GridSolid& solid, double delta, const std::vector<int>& planes,
-                std::vector<char>& demoted, int& count) {
-        PointTable points(solid.grid.bits);
-        for (const Vec3i& p : solid.points) points.add_input(p);
-        const PlaneClasses classes = assign_planes(solid, delta, demoted, points);
-        bool any = false;
-        demoted.resize(static_cast<std::size_t>(points.planes()), 0);
-        for (const int plane : planes) {
-            if (plane >= static_cast<int>(classes.is_class.size()) || !classes.is_class[plane])
-                continue;
-            ++count;
-            for (std::size_t t = 0; t < solid.triangles.size(); ++t)
-                if (classes.key[t] >> 1 == plane) {
-                    demoted[classes.exact_key[t] >> 1] = 1;
-                    any = true;
-                }
+    // Takes back the smallest class of each contradiction: the exact planes of its triangles are
+    // marked. False when no class is involved.
+    static bool demote(const PlaneClasses& classes, const std::vector<std::vector<int>>& at_fault,
+                       std::vector<char>& demoted, int& count) {
+        std::vector<int> size(classes.is_class.size(), 0);
+        for (const int key : classes.key) ++size[key >> 1];
+        std::vector<char> chosen(size.size(), 0);
+        for (const std::vector<int>& planes : at_fault) {
+            int smallest = -1;
+            for (const int p : planes)
+                if (p < static_cast<int>(size.size()) && classes.is_class[p] &&
+                    (smallest < 0 || size[p] < size[smallest]))
+                    smallest = p;
+            if (smallest >= 0) chosen[smallest] = 1;
         }
+        bool any = false;
+        demoted.resize(classes.is_class.size(), 0);
+        for (std::size_t t = 0; t < classes.key.size(); ++t)
+            if (chosen[classes.key[t] >> 1]) demoted[classes.exact_key[t] >> 1] = any = true;
+        count += static_cast<int>(std::count(chosen.begin(), chosen.end(), 1));
         return any;
     }
 

@@ -15,6 +15,8 @@ Rule rule_of(NotchRule rule) {
                                     : (rule == NotchRule::random ? Rule::random : Rule::cover);
 }
 
+constexpr std::size_t kPlanesTried = 8;
+
 class Run {
 public:
     Run(const GridSolid& solid, const CellsOptions& options, double delta,
@@ -46,37 +48,33 @@ public:
 
 private:
     void step(Piece&& piece, std::vector<Piece>& open) {
-        Section section;
-        if (!trace_best(piece, section)) {
-            close(piece);
-            return;
+        std::vector<int> excluded, at_fault;
+        for (;;) {
+            const int plane = choose_plane(out_.points, out_.edges, piece, notches_,
+                                           rule_of(options_.rule), reach_, excluded, state_);
+            if (plane < 0) break;
+            try {
+                cut(std::move(piece), trace(piece, plane), open);
+                return;
+            } catch (const Inconsistent& e) {
+                // Another plane may split the trouble.
+                excluded.push_back(plane);
+                if (at_fault.empty()) at_fault = e.planes;
+                if (excluded.size() >= kPlanesTried) break;
+            }
         }
+        if (excluded.empty())
+            close(piece);
+        else
+            out_.contradictions.push_back(std::move(at_fault));
+    }
+
+    void cut(Piece&& piece, const Section& section, std::vector<Piece>& open) {
         std::vector<Piece> parts =
             cut_piece(out_.points, out_.edges, std::move(piece), section, work_);
         ++out_.cuts;
         out_.splices += parts.size() == 1;
         for (Piece& p : parts) open.push_back(std::move(p));
-    }
-
-    // False when the piece has no notch. A plane that contradicts the classes is left for later:
-    // another one may split the trouble.
-    bool trace_best(Piece& piece, Section& section) {
-        std::vector<int> excluded;
-        for (;;) {
-            const int plane = choose_plane(out_.points, out_.edges, piece, notches_,
-                                           rule_of(options_.rule), reach_, excluded, state_);
-            if (plane < 0) return false;
-            try {
-                section = trace(piece, plane);
-                return true;
-            } catch (const Inconsistent&) {
-                excluded.push_back(plane);
-                if (excluded.size() > 8 || choose_plane(out_.points, out_.edges, piece, notches_,
-                                                        rule_of(options_.rule), reach_, excluded,
-                                                        state_) < 0)
-                    throw;
-            }
-        }
     }
 
     Section trace(Piece& piece, int plane) {
@@ -143,12 +141,12 @@ private:
 Decomposition decompose(const GridSolid& solid, const CellsOptions& options, double delta,
                         const std::vector<char>& demoted, std::uint64_t seed,
                         Progress& progress) {
-    Decomposition out{PointTable(solid.grid.bits), {}, {}, {}};
+    Decomposition out(solid.grid.bits);
     for (const Vec3i& p : solid.points) out.points.add_input(p);
     out.classes = assign_planes(solid, delta, demoted, out.points);
     Run(solid, options, delta, out, progress).cut_all(seed);
     out.raw_cells = static_cast<int>(out.cells.size());
-    if (options.merge) out.cells = merge_cells(out.points, out.edges, out.cells);
+    if (options.merge && out.contradictions.empty()) out.cells = merge_cells(out.points, out.edges, out.cells);
     return out;
 }
 

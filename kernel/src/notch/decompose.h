@@ -9,15 +9,19 @@ namespace tetra::notch {
 
 // What a run leaves behind: half-edges whose surfaces are the convex cells.
 struct Decomposition {
+    explicit Decomposition(int grid_bits) : points(grid_bits) {}
+
     PointTable points;
     HalfEdges edges;
     PlaneClasses classes;
     std::vector<int> cells;  // one half-edge each
+    // Pieces that no plane could cut because classes contradict themselves there: the planes of
+    // each. Empty for a usable result.
+    std::vector<std::vector<int>> contradictions;
     int notches = 0, planes = 0, cuts = 0, splices = 0, raw_cells = 0;
 };
 
-// Throws Inconsistent when plane classes contradict themselves; with delta = 0 that would be a
-// defect of the kernel or an invalid solid.
+// With delta = 0 a contradiction would be a defect of the kernel or an invalid solid.
 Decomposition decompose(const GridSolid& solid, const CellsOptions& options, double delta,
                         const std::vector<char>& demoted, std::uint64_t seed, Progress& progress);
 
