@@ -17,6 +17,7 @@ namespace {
 
 constexpr std::int64_t kCoordinateLimit = std::int64_t{1} << 26;
 constexpr double kObliqueHandicap = 1.1;
+constexpr double kWorthAnotherLook = 1.3;
 
 std::int64_t dot(const Vec3i& a, const Vec3i& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
 
@@ -84,6 +85,17 @@ std::array<Vec3i, 3> unimodular_rows(const Vec3i& d) {
     m = minus(m, nearest_quotient(dot(m, u), dot(u, u)), u);
     m = minus(m, nearest_quotient(dot(m, v), dot(v, v)), v);
     return {u, v, m};
+}
+
+// Base edges of the walls along every so manieth line, scaled up.
+double counted(fence::Plan& plan, int sampled_lines, Progress& progress) {
+    const auto lines = static_cast<int>(plan.lines.size());
+    if (lines == 0) return 0;
+    const int stride = std::max(1, lines / std::max(1, sampled_lines));
+    const fence::Walls walls = fence::sweep_walls(plan, progress, stride);
+    const auto ends = std::ranges::count_if(walls.points, &fence::WallPoint::active);
+    const auto sides = static_cast<double>(ends) - static_cast<double>(walls.runs.size());
+    return sides * lines / ((lines + stride - 1) / stride);
 }
 
 class Rater {
@@ -186,8 +198,19 @@ class Rater {
                 }
             }
         try {
-            d.cost = count_walls(laid, triangles_, owner_, options_.sampled_lines, progress_);
+            FenceInput input;
+            input.points = std::move(laid);
+            input.triangles = triangles_;
+            input.owner = owner_;
+            fence::Plan plan = fence::make_plan(input);
+            d.cost = counted(plan, options_.sampled_lines / 10, progress_);
+            // A first sample is enough to drop those that are far behind.
+            if (weight(d) > kWorthAnotherLook * best_) return;
+            if (static_cast<int>(plan.lines.size()) > options_.sampled_lines / 10)
+                d.cost = counted(plan, options_.sampled_lines, progress_);
+            best_ = std::min(best_, weight(d));
         } catch (const InvalidSolid& error) {
+            d.cost = -1;
             d.note += ", " + std::string(error.what());
             defects_ = error.defects;
         }
@@ -200,6 +223,7 @@ class Rater {
     Progress& progress_;
     std::vector<FenceDirection> directions_;
     std::vector<Defect> defects_;
+    double best_ = HUGE_VAL;
 };
 
 }  // namespace
@@ -262,13 +286,7 @@ double count_walls(const std::vector<Vec3i>& points, const std::vector<Triangle>
     input.triangles = triangles;
     input.owner = owner;
     fence::Plan plan = fence::make_plan(input);
-    const auto lines = static_cast<int>(plan.lines.size());
-    const int stride = std::max(1, lines / std::max(1, sampled_lines));
-    const fence::Walls walls = fence::sweep_walls(plan, progress, stride);
-    const auto ends = std::ranges::count_if(walls.points, &fence::WallPoint::active);
-    const auto sides = static_cast<double>(ends) - static_cast<double>(walls.runs.size());
-    const int swept = (lines + stride - 1) / stride;
-    return swept == 0 ? 0 : sides * lines / swept;
+    return counted(plan, sampled_lines, progress);
 }
 
 std::vector<FenceDirection> fence_directions(const std::vector<Vec3i>& points,

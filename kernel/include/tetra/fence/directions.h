@@ -26,10 +26,10 @@ struct FenceDirection {
 
 struct DirectionOptions {
     std::vector<Vec3d> candidates;  // e.g. axes of cylinders; any length
-    int from_facets = 4;            // normals of the largest planar faces to be added
-    int from_edges = 4;             // commonest exact directions of sharp edges to be added
+    int from_facets = 2;            // normals of the largest planar faces to be added
+    int from_edges = 2;             // commonest exact directions of sharp edges to be added
     int largest_entry = 7;          // of integer directions; a vector is taken to the nearest one
-    int sampled_lines = 3000;       // plan lines that are swept to rate one direction
+    int sampled_lines = 3000;       // plan lines swept to rate one of the best; the others: a tenth
 };
 
 // The map for one primitive or scaled integer vector, unrated.
