@@ -17,7 +17,7 @@ sys.path.insert(0, str(ROOT / "tests" / "tools"))
 
 from isolated import Outcome, run_isolated  # noqa: E402
 from random_solids import Surface, to_off  # noqa: E402
-from shrink import shrink  # noqa: E402
+from shrink import shrink, shrink_recipe  # noqa: E402
 
 Check = Callable[[Surface, dict[str, Any]], dict[str, float]]
 Job = tuple[int, dict[str, Any]]
@@ -42,7 +42,7 @@ def stem(message: str) -> str:
 
 
 def save_case(
-    name: str, outcome: Outcome, make: Callable[[int], Surface], check: Check, seconds: float
+    name: str, outcome: Outcome, make: Callable[..., Surface], check: Check, seconds: float
 ) -> Callable[[Path], Path]:
     """Shrink a failing solid; returns a function that writes it into a folder as .off."""
     seed, options = outcome.job
@@ -53,7 +53,9 @@ def save_case(
         found = next(iter(run_isolated(lambda s: check(s, options), [candidate], 1, 20.0)))
         return (found.kind, stem(found.message)) == (outcome.kind, stem(outcome.message))
 
-    small = shrink(surface, fails, seconds) if seconds > 0 and fails(surface) else surface
+    small = surface
+    if seconds > 0 and fails(surface):
+        small = shrink(shrink_recipe(make, seed, fails, seconds), fails, seconds)
 
     def write(folder: Path) -> Path:
         folder.mkdir(parents=True, exist_ok=True)
@@ -69,7 +71,7 @@ def save_case(
 def run(
     name: str,
     arguments: argparse.Namespace,
-    make: Callable[[int], Surface],
+    make: Callable[..., Surface],
     options_of: Callable[[int], dict[str, Any]],
     check: Check,
 ) -> int:

@@ -123,10 +123,11 @@ def test_false_tetrahedra_are_refused():
         ):
             with pytest.raises(NotATetMesh, match=match):
                 verify_tets(vertices, triangles, p, t)
-        with pytest.raises(NotATetMesh, match=r"lost|moved"):
-            verify_tets(
-                vertices, triangles, places, tets, point_source=np.zeros(len(places), int) - 1
-            )
+        source = source_of(vertices, places)
+        with pytest.raises(NotATetMesh, match="moved"):
+            verify_tets(vertices, triangles, places + 1, tets, point_source=source)
+        with pytest.raises(NotATetMesh, match="lost"):
+            verify_tets(vertices, triangles, places + 1, tets, point_source=0 * source - 1)
 
 
 def test_random_solids_are_closed_and_repeatable():

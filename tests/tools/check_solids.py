@@ -109,6 +109,7 @@ def check_tets(surface: Surface, options: dict[str, Any]) -> dict[str, float]:
         found["skin"],
         found["skin_source"],
         found["point_source"],
+        found["report"]["repairs"]["vertices_on_grid"],
     )
     report = found["report"]
     attempts = [text for solid in report["solids"] for text in solid["failed_attempts"]]

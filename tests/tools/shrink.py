@@ -47,22 +47,6 @@ def _parity(t: list[int]) -> bool:
     return ((t[0] > t[1]) + (t[1] > t[2]) + (t[0] > t[2])) % 2 == 0
 
 
-def _smaller(surface: Surface) -> Iterator[Surface]:
-    parts = components(surface)
-    if len(parts) > 1:
-        yield from parts
-        for k in range(len(parts)):
-            others = parts[:k] + parts[k + 1 :]
-            shifts = np.cumsum([0] + [len(p[0]) for p in others])
-            triangles = np.concatenate([p[1] + s for p, s in zip(others, shifts)])
-            yield np.concatenate([p[0] for p in others]), triangles.astype(np.int32)
-    triangles = surface[1]
-    edges = {tuple(sorted((t[i], t[i - 1]))) for t in triangles.tolist() for i in range(3)}
-    for a, b in sorted(edges):
-        yield collapsed(surface, a, b)
-        yield collapsed(surface, b, a)
-
-
 def _nearer(surface: Surface) -> Iterator[Surface]:
     vertices, triangles = surface
     centred = vertices - vertices.min(axis=0)
@@ -79,6 +63,28 @@ def _nearer(surface: Surface) -> Iterator[Surface]:
             yield moved, triangles
 
 
+def shrink_recipe(
+    make: Callable[..., Surface], seed: int, fails: Callable[[Surface], bool], seconds: float
+) -> Surface:
+    """Leave cells out of ``make(seed, without)`` while it fails; all of them may go but one."""
+    surface = make(seed)
+    end = time.monotonic() + seconds
+    without: list[int] = []
+    if len(make(seed, (0,))[1]) == len(surface[1]):
+        return surface  # no voxel solid
+    for cell in range(1000):
+        if time.monotonic() > end:
+            break
+        try:
+            candidate = make(seed, (*without, cell))
+        except (IndexError, ValueError):
+            break  # no such cell, or none left
+        if len(candidate[1]) and fails(candidate):
+            without.append(cell)
+            surface = candidate
+    return surface
+
+
 def shrink(surface: Surface, fails: Callable[[Surface], bool], seconds: float = 60.0) -> Surface:
     """The smallest failing solid that greedy steps reach.
 
@@ -92,14 +98,41 @@ def shrink(surface: Surface, fails: Callable[[Surface], bool], seconds: float = 
         Stop after so long.
     """
     end = time.monotonic() + seconds
-    for variants in (_smaller, _nearer):
-        progress = True
-        while progress and time.monotonic() < end:
-            progress = False
-            for candidate in variants(surface):
-                if time.monotonic() > end:
-                    break
-                if len(candidate[1]) >= 4 and fails(candidate):
-                    surface, progress = candidate, True
-                    break
+    for part in components(surface):
+        if len(part[1]) < len(surface[1]) and fails(part):
+            surface = part
+            break
+    progress = True
+    while progress and time.monotonic() < end:
+        progress = False
+        for keep, drop in _edges(surface):
+            if time.monotonic() > end:
+                break
+            candidate = _collapse_places(surface, keep, drop)
+            if candidate is not None and fails(candidate):
+                surface, progress = candidate, True
+    progress = True
+    while progress and time.monotonic() < end:
+        progress = False
+        for candidate in _nearer(surface):
+            if fails(candidate):
+                surface, progress = candidate, True
+                break
     return surface
+
+
+def _edges(surface: Surface) -> list[tuple[tuple[int, ...], tuple[int, ...]]]:
+    """Both directions of every edge, as places: these outlive renumbering."""
+    places = [tuple(row) for row in surface[0].tolist()]
+    pairs = {(t[i], t[i - 1]) for t in surface[1].tolist() for i in range(3)}
+    return [(places[a], places[b]) for a, b in sorted(pairs)]
+
+
+def _collapse_places(
+    surface: Surface, keep: tuple[int, ...], drop: tuple[int, ...]
+) -> Surface | None:
+    rows = {tuple(row): i for i, row in enumerate(surface[0].tolist())}
+    if keep not in rows or drop not in rows:
+        return None
+    small = collapsed(surface, rows[keep], rows[drop])
+    return small if len(small[1]) >= 4 else None
