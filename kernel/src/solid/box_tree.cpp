@@ -22,7 +22,8 @@ Box triangle_box(std::span<const Vec3i> points, const Triangle& t) {
 Box join(const BoxTree& tree, int begin, int end) {
     Box box = tree.boxes[static_cast<std::size_t>(tree.order[static_cast<std::size_t>(begin)])];
     for (int i = begin + 1; i < end; ++i) {
-        const Box& b = tree.boxes[static_cast<std::size_t>(tree.order[static_cast<std::size_t>(i)])];
+        const Box& b =
+            tree.boxes[static_cast<std::size_t>(tree.order[static_cast<std::size_t>(i)])];
         for (std::size_t k = 0; k < 3; ++k) {
             box.low[k] = std::min(box.low[k], b.low[k]);
             box.high[k] = std::max(box.high[k], b.high[k]);

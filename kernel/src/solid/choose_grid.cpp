@@ -8,7 +8,7 @@ namespace {
 struct Try {
     GridSolid solid;
     SnapReport report;
-    bool valid = false;    // closed, with volume, not crossing itself
+    bool valid = false;     // closed, with volume, not crossing itself
     bool faithful = false;  // besides, points distinct and no new contact of facets
 };
 
@@ -26,7 +26,8 @@ Try try_grid(const SurfaceView& surface, int facet_contacts, int bits, Progress&
     const BoxTree tree = build_box_tree(s.points, s.triangles);
     const Crossings crossings = find_crossings(s, sheets, tree, 1, progress);
     t.valid = crossings.pairs.empty();
-    t.faithful = t.valid && t.report.merged_points == 0 && crossings.facet_contacts <= facet_contacts;
+    t.faithful =
+        t.valid && t.report.merged_points == 0 && crossings.facet_contacts <= facet_contacts;
     return t;
 }
 

@@ -12,6 +12,9 @@ namespace {
 
 using Signs = std::array<int, 3>;
 
+// A surface can cross itself in n^2 places: after this many times the limit the search ends.
+constexpr std::size_t kEnough = 100;
+
 // Where a triangle meets the plane of another: two points on edges `from` (strictly off the
 // plane) -> `to`, or along the edge opposite to its only corner off the plane.
 struct Section {
@@ -47,7 +50,7 @@ bool section_of(const Signs& s, Section& r) {
 }
 
 class Finder {
-public:
+  public:
     Finder(const GridSolid& s, const Sheets& sheets, const BoxTree& tree, std::size_t limit)
         : s_(s), sheets_(sheets), tree_(tree), limit_(limit) {}
 
@@ -57,7 +60,7 @@ public:
         for_touching_boxes(tree_, [&](int a, int b) {
             if (++tests % 1024 == 0)
                 progress.poll("validate", std::min(1.0, static_cast<double>(tests) / expected));
-            test(a, b);
+            if (found_.pairs.size() <= kEnough * limit_) test(a, b);
         });
         std::sort(found_.pairs.begin(), found_.pairs.end());
         if (found_.pairs.size() > limit_) found_.pairs.resize(limit_);
@@ -68,7 +71,7 @@ public:
         return std::move(found_);
     }
 
-private:
+  private:
     const Triangle& triangle(int t) const { return s_.triangles[static_cast<std::size_t>(t)]; }
     int vertex(int t, int i) const { return triangle(t)[static_cast<std::size_t>(i % 3)]; }
     const Vec3i& point(int v) const { return s_.points[static_cast<std::size_t>(v)]; }
@@ -144,7 +147,8 @@ private:
         const int u = tail_of(s_.triangles, ha), v = head_of(s_.triangles, ha);
         const int p = tail_of(s_.triangles, hb), q = head_of(s_.triangles, hb);
         // Pairs at one edge of one solid were made not to cross.
-        if (same_solid(a, b) && std::min(u, v) == std::min(p, q) && std::max(u, v) == std::max(p, q))
+        if (same_solid(a, b) && std::min(u, v) == std::min(p, q) &&
+            std::max(u, v) == std::max(p, q))
             return;
         const auto apex = [&](int h) -> const Vec3i& { return point(apex_of(s_.triangles, h)); };
         const auto twin = [&](int h) { return sheets_.twin[static_cast<std::size_t>(h)]; };

@@ -6,6 +6,7 @@
 #include <string>
 
 #include "groups.h"
+#include "tetra/exact/predicates.h"
 
 namespace tetra {
 namespace {
@@ -36,8 +37,9 @@ void sort_unique(std::vector<int>& ids) {
 }
 
 class BoundaryDefects {
-public:
-    explicit BoundaryDefects(const GridSolid& s) : s_(s), table_(build_edges(s.triangles, s.solid)) {}
+  public:
+    explicit BoundaryDefects(const GridSolid& s)
+        : s_(s), table_(build_edges(s.triangles, s.solid)) {}
 
     std::vector<Defect> run() {
         for (std::size_t e = 0; e < table_.edges.size(); ++e) {
@@ -52,7 +54,7 @@ public:
         return std::move(defects_);
     }
 
-private:
+  private:
     int source_vertex(int v) const { return s_.point_source[static_cast<std::size_t>(v)]; }
     int source_triangle(int t) const { return s_.triangle_source[static_cast<std::size_t>(t)]; }
 
@@ -60,7 +62,8 @@ private:
         Groups groups(s_.points.size());
         for (const std::size_t e : open_) groups.join(table_.edges[e].low, table_.edges[e].high);
         std::vector<std::pair<int, std::size_t>> by_group;
-        for (const std::size_t e : open_) by_group.emplace_back(groups.root(table_.edges[e].low), e);
+        for (const std::size_t e : open_)
+            by_group.emplace_back(groups.root(table_.edges[e].low), e);
         std::sort(by_group.begin(), by_group.end());
         for (std::size_t i = 0; i < by_group.size();) {
             Defect d{"open_edge", {}, {}, ""};
@@ -89,7 +92,8 @@ private:
         const std::size_t n = s_.triangles.size();
         std::vector<int> edge_of(3 * n);
         for (std::size_t e = 0; e < table_.edges.size(); ++e)
-            for (const int h : table_.of(e)) edge_of[static_cast<std::size_t>(h)] = static_cast<int>(e);
+            for (const int h : table_.of(e))
+                edge_of[static_cast<std::size_t>(h)] = static_cast<int>(e);
         part_.assign(n, -1);
         turn_.assign(n, 0);
         std::vector<int> stack;
@@ -130,7 +134,8 @@ private:
         spread();
         std::vector<int> parts;
         for (const std::size_t e : twisted_)
-            for (const int h : table_.of(e)) parts.push_back(part_[static_cast<std::size_t>(h / 3)]);
+            for (const int h : table_.of(e))
+                parts.push_back(part_[static_cast<std::size_t>(h / 3)]);
         sort_unique(parts);
         std::vector<std::vector<int>> members(contradictory_.size());
         for (std::size_t t = 0; t < part_.size(); ++t)
@@ -144,9 +149,9 @@ private:
         const std::vector<int>& all = members[static_cast<std::size_t>(part)];
         const bool moebius = contradictory_[static_cast<std::size_t>(part)];
         std::vector<int> same, opposed;
-        for (const int t : all)
-            (turn_[static_cast<std::size_t>(t)] ? opposed : same).push_back(t);
-        const std::vector<int>& wrong = moebius ? all : (opposed.size() <= same.size() ? opposed : same);
+        for (const int t : all) (turn_[static_cast<std::size_t>(t)] ? opposed : same).push_back(t);
+        const std::vector<int>& wrong =
+            moebius ? all : (opposed.size() <= same.size() ? opposed : same);
         if (wrong.empty()) return false;
         Defect d{moebius ? "non_orientable" : "inconsistent_orientation", {}, {}, ""};
         for (const int t : wrong) {
@@ -156,11 +161,12 @@ private:
         }
         sort_unique(d.vertices);
         sort_unique(d.triangles);
-        d.message = moebius ? "a part of the surface has one side only, like a Möbius strip; it bounds "
-                              "no solid"
-                            : std::to_string(wrong.size()) + " triangle(s), first " +
-                                  std::to_string(d.triangles.front()) +
-                                  ", face the other way than their neighbours; turn them";
+        d.message = moebius
+                        ? "a part of the surface has one side only, like a Möbius strip; it bounds "
+                          "no solid"
+                        : std::to_string(wrong.size()) + " triangle(s), first " +
+                              std::to_string(d.triangles.front()) +
+                              ", face the other way than their neighbours; turn them";
         defects_.push_back(std::move(d));
         return true;
     }
@@ -243,6 +249,10 @@ std::vector<Defect> find_duplicate_triangles(const GridSolid& surface) {
     std::vector<Defect> defects;
     for (std::size_t i = 0; i + 1 < keys.size(); ++i) {
         if (keys[i].solid != keys[i + 1].solid || keys[i].corners != keys[i + 1].corners) continue;
+        const auto corner = [&](std::size_t k) -> const Vec3i& {
+            return surface.points[static_cast<std::size_t>(keys[i].corners[k])];
+        };
+        if (collinear(corner(0), corner(1), corner(2))) continue;
         Defect d{"duplicate_triangle", {}, {}, ""};
         for (const int v : keys[i].corners)
             d.vertices.push_back(surface.point_source[static_cast<std::size_t>(v)]);

@@ -29,7 +29,7 @@ struct DirectedEdgeHash {
 
 // Lookups only: nothing depends on the order of the hash table.
 class Repair {
-public:
+  public:
     explicit Repair(GridSolid solid) : s_(std::move(solid)), alive_(s_.triangles.size(), 1) {}
 
     void run() {
@@ -70,7 +70,7 @@ public:
 
     int flips = 0, dropped = 0;
 
-private:
+  private:
     struct Entry {
         Int128 length;
         int triangle;
@@ -195,7 +195,8 @@ private:
             for (int t = 0; t < count(); ++t)
                 if (alive(t)) add_edges(t);
         }
-        for (const std::array<int, 2>& fold : folds) stack.insert(stack.end(), fold.begin(), fold.end());
+        for (const std::array<int, 2>& fold : folds)
+            stack.insert(stack.end(), fold.begin(), fold.end());
         while (!stack.empty()) {
             const int t = stack.back();
             stack.pop_back();

@@ -5,9 +5,9 @@
 #include <algorithm>
 #include <numeric>
 
+#include "groups.h"
 #include "tetra/exact/predicates.h"
 #include "tetra/solid/edges.h"
-#include "groups.h"
 
 namespace tetra {
 namespace {
@@ -83,7 +83,9 @@ int count_type3(const GridSolid& s, Groups fans) {
     std::sort(at.begin(), at.end());
     int count = 0;
     for (std::size_t i = 0; i + 1 < at.size(); ++i) {
-        const auto same = [&](std::size_t j) { return at[j][0] == at[i][0] && at[j][1] == at[i][1]; };
+        const auto same = [&](std::size_t j) {
+            return at[j][0] == at[i][0] && at[j][1] == at[i][1];
+        };
         if (same(i + 1) && !(i > 0 && same(i - 1))) ++count;
     }
     return count;

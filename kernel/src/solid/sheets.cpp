@@ -80,8 +80,8 @@ Sheets pair_half_edges(std::span<const Vec3i> points, std::span<const Triangle> 
         const Vec3i &u = point(table.edges[e].low), &v = point(table.edges[e].high);
         spokes.clear();
         for (const int h : half_edges)
-            spokes.push_back({h, tail_of(triangles, h) == table.edges[e].low,
-                              &point(apex_of(triangles, h))});
+            spokes.push_back(
+                {h, tail_of(triangles, h) == table.edges[e].low, &point(apex_of(triangles, h))});
         const Vec3i& start = *spokes.front().apex;
         std::sort(spokes.begin(), spokes.end(), [&](const Spoke& a, const Spoke& b) {
             const int order = compare_around(u, v, start, *a.apex, *b.apex);

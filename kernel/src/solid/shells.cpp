@@ -21,9 +21,8 @@ struct Normal {
 // plane and by a still smaller amount to the inner side of the triangle (the outer side if
 // `outside`), and goes up.
 class Ray {
-public:
-    Ray(const GridSolid& s, int base, bool outside)
-        : s_(s), base_(base), normal_(normal(base)) {
+  public:
+    Ray(const GridSolid& s, int base, bool outside) : s_(s), base_(base), normal_(normal(base)) {
         starts_above_ = (sign_of(normal_.z) > 0) == outside;
         for (std::size_t k = 0; k < 3; ++k)
             sum_[k] = corner(base, 0)[k] + corner(base, 1)[k] + corner(base, 2)[k];
@@ -48,7 +47,7 @@ public:
         return above(t) ? sign_of(nz) : 0;
     }
 
-private:
+  private:
     const Vec3i& corner(int t, int i) const {
         return s_.points[static_cast<std::size_t>(
             s_.triangles[static_cast<std::size_t>(t)][static_cast<std::size_t>(i % 3)])];
@@ -67,7 +66,8 @@ private:
         const Int128 cross = static_cast<Int128>(dx) * (sum_[1] - 3 * p[1]) -
                              static_cast<Int128>(dy) * (sum_[0] - 3 * p[0]);
         // d(cross)/d(shift) = (-dy, dx) for the shift (e, e^2).
-        const int side = cross != 0 ? sign_of(cross) : (dy != 0 ? (dy < 0 ? 1 : -1) : (dx > 0 ? 1 : -1));
+        const int side =
+            cross != 0 ? sign_of(cross) : (dy != 0 ? (dy < 0 ? 1 : -1) : (dx > 0 ? 1 : -1));
         return side * turn > 0;
     }
     bool covers(int t, int turn) const {
@@ -118,8 +118,8 @@ std::vector<int> base_triangles(const GridSolid& s, const Shells& shells) {
 }
 
 int solid_of(const GridSolid& s, const Shells& shells, int shell) {
-    return s.solid[static_cast<std::size_t>(
-        shells.first_triangle[static_cast<std::size_t>(shell)])];
+    return s
+        .solid[static_cast<std::size_t>(shells.first_triangle[static_cast<std::size_t>(shell)])];
 }
 
 // Winding number of every shell met by the ray around its start.
@@ -193,8 +193,7 @@ Nesting nest_shells(const GridSolid& surface, const Shells& shells, const BoxTre
 }
 
 std::vector<std::array<int, 2>> find_overlapping_solids(const GridSolid& surface,
-                                                        const Shells& shells,
-                                                        const BoxTree& tree) {
+                                                        const Shells& shells, const BoxTree& tree) {
     std::vector<std::array<int, 2>> found;
     const std::vector<int> base = base_triangles(surface, shells);
     for (std::size_t x = 0; x < base.size(); ++x) {

@@ -29,7 +29,8 @@ std::vector<int> merge_points(const SurfaceView& surface, const std::vector<int>
     std::vector<int> order(used.size());
     std::iota(order.begin(), order.end(), 0);
     std::sort(order.begin(), order.end(), [&](int a, int b) {
-        const Vec3i &p = places[static_cast<std::size_t>(a)], &q = places[static_cast<std::size_t>(b)];
+        const Vec3i &p = places[static_cast<std::size_t>(a)],
+                    &q = places[static_cast<std::size_t>(b)];
         return p != q ? p < q : a < b;
     });
     std::vector<int> leader(used.size());
@@ -46,7 +47,8 @@ std::vector<int> merge_points(const SurfaceView& surface, const std::vector<int>
             result.points.push_back(places[i]);
             result.point_source.push_back(used[i]);
         } else {
-            point_of[v] = point_of[static_cast<std::size_t>(used[static_cast<std::size_t>(leader[i])])];
+            point_of[v] =
+                point_of[static_cast<std::size_t>(used[static_cast<std::size_t>(leader[i])])];
         }
     }
     return point_of;
@@ -66,10 +68,11 @@ GridSolid merge_on_grid(const SurfaceView& surface, int bits, SnapReport* report
         Triangle corners;
         for (std::size_t k = 0; k < 3; ++k)
             corners[k] = point_of[static_cast<std::size_t>(surface.triangles[t][k])];
-        if (corners[0] == corners[1] || corners[1] == corners[2] || corners[2] == corners[0]) continue;
+        if (corners[0] == corners[1] || corners[1] == corners[2] || corners[2] == corners[0])
+            continue;
         result.triangles.push_back(corners);
-        result.triangle_source.push_back(surface.triangle_source.empty() ? static_cast<int>(t)
-                                                                         : surface.triangle_source[t]);
+        result.triangle_source.push_back(
+            surface.triangle_source.empty() ? static_cast<int>(t) : surface.triangle_source[t]);
         result.solid.push_back(surface.solid.empty() ? 0 : surface.solid[t]);
     }
     if (report) {

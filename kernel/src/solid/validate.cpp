@@ -68,8 +68,7 @@ std::vector<Defect> crossing_defects(const GridSolid& s, const Crossings& crossi
         defects.push_back({"self_crossing",
                            source_vertices(s, {a, b}),
                            {first, second},
-                           "triangles " + std::to_string(first) + " and " +
-                               std::to_string(second) +
+                           "triangles " + std::to_string(first) + " and " + std::to_string(second) +
                                (flat ? " overlap in a plane or leave a wall of no thickness"
                                      : " pass through each other") +
                                "; separate or unite the parts"});
@@ -227,8 +226,8 @@ std::vector<Defect> find_defects(const GridSolid& surface, Progress& progress,
     const Shells shells = find_shells(surface.points, surface.triangles, sheets.twin);
     const BoxTree tree = build_box_tree(surface.points, surface.triangles);
     defects = flat_shell_defects(surface, shells);
-    for (Defect& d : crossing_defects(
-             surface, find_crossings(surface, sheets, tree, max_crossings, progress)))
+    for (Defect& d :
+         crossing_defects(surface, find_crossings(surface, sheets, tree, max_crossings, progress)))
         defects.push_back(std::move(d));
     return defects;
 }

@@ -58,9 +58,8 @@ void for_touching_boxes(const BoxTree& tree, Visit&& visit) {
             if (a.left < 0) {
                 leaves(a, a, true);
             } else {
-                stack.insert(stack.end(), {{a.left, a.left},
-                                           {a.left + 1, a.left + 1},
-                                           {a.left, a.left + 1}});
+                stack.insert(stack.end(),
+                             {{a.left, a.left}, {a.left + 1, a.left + 1}, {a.left, a.left + 1}});
             }
         } else if (boxes_touch(a.box, b.box)) {
             if (a.left < 0 && b.left < 0) {

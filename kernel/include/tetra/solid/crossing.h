@@ -34,7 +34,8 @@ struct Crossings {
 // half-planes strictly on different sides of the other sheet. A coplanar overlap is one when both
 // triangles face the same way; opposite ones touch with nothing between, from outside: a wall of
 // no thickness, solid on neither side, counts as penetration.
-// O(n log n) for surfaces with few overlapping boxes. `limit` bounds the pairs listed.
+// O(n log n) for surfaces with few overlapping boxes. `limit` bounds the pairs listed;
+// with far more of them the search stops and the other fields are incomplete.
 Crossings find_crossings(const GridSolid& surface, const Sheets& sheets, const BoxTree& tree,
                          std::size_t limit, Progress& progress);
 

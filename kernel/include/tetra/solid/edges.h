@@ -52,7 +52,8 @@ bool is_closed(std::span<const Triangle> triangles, std::span<const int> solid);
 // be oriented at all (non_orientable). Ids are translated to the caller's by the solid's sources.
 std::vector<Defect> find_boundary_defects(const GridSolid& surface);
 
-// Triangles of one solid with the same three points in the same cyclic order.
+// Triangles of one solid with the same three points in the same cyclic order, flat ones excepted
+// (their repair settles them).
 std::vector<Defect> find_duplicate_triangles(const GridSolid& surface);
 
 }  // namespace tetra

@@ -10,14 +10,14 @@
 namespace tetra {
 
 struct Counts {
-    int vertices = 0;   // distinct points in use
+    int vertices = 0;  // distinct points in use
     int triangles = 0;
-    int facets = 0;     // connected coplanar regions
-    int notches = 0;    // reflex edges; collinear ones in a row between the same facets are one
+    int facets = 0;   // connected coplanar regions
+    int notches = 0;  // reflex edges; collinear ones in a row between the same facets are one
     int shells = 0;
-    int solids = 0;     // outer shells
-    int genus = 0;      // sum over shells
-    int euler = 0;      // vertices - edges + triangles, contacts taken apart
+    int solids = 0;          // outer shells
+    int genus = 0;           // sum over shells
+    int euler = 0;           // vertices - edges + triangles, contacts taken apart
     int type1_contacts = 0;  // points on a triangle of which they are no corner
     int type2_edges = 0;     // edges with more than two triangles
     int type3_vertices = 0;  // points where several fans meet that share no edge

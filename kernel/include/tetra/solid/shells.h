@@ -34,7 +34,6 @@ Nesting nest_shells(const GridSolid& surface, const Shells& shells, const BoxTre
 // Pairs (shell, shell of another solid that lies around it) where solid material of the first is
 // also material of the second's solid. Shells must face outward and not cross.
 std::vector<std::array<int, 2>> find_overlapping_solids(const GridSolid& surface,
-                                                        const Shells& shells,
-                                                        const BoxTree& tree);
+                                                        const Shells& shells, const BoxTree& tree);
 
 }  // namespace tetra

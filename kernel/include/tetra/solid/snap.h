@@ -33,8 +33,8 @@ GridSolid merge_on_grid(const SurfaceView& surface, int bits, SnapReport* report
 // Removes flat triangles by exchanging their long edge with the neighbour across it, which keeps
 // every point, the surface as a set, its volume and its closedness; then cancels opposite
 // coincident triangles that share an edge with nobody else (walls and gaps of no thickness).
-// The surface must be closed: throws InvalidSolid (degenerate_triangle) when a long edge has no
-// neighbour. O(n log n) for the few flat triangles of a real surface.
+// The surface must be closed and its points distinct: throws InvalidSolid (degenerate_triangle)
+// when a long edge has no neighbour. O(n log n) for the few flat triangles of a real surface.
 GridSolid repair_flat_triangles(GridSolid solid, SnapReport* report = nullptr);
 
 // Both steps, with the closedness of the result checked: InvalidSolid (open_edge,

@@ -16,7 +16,7 @@ inline constexpr int kValidationBits = 40;
 
 struct ValidateOptions {
     int bits = kValidationBits;
-    std::size_t max_crossings = 100;  // pairs named; the first message tells how many there are
+    std::size_t max_crossings = 100;  // crossing pairs named
 };
 
 struct Validation {
