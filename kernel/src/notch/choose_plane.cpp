@@ -16,48 +16,74 @@ struct Candidate {
 
 // Planes of the piece's notches, most carried first.
 std::vector<Candidate> candidates_of(const std::vector<int>& planes_of_edges,
-                                     const std::vector<int>& excluded) {
-    std::vector<int> planes = planes_of_edges;
-    std::sort(planes.begin(), planes.end());
+                                     const std::vector<int>& excluded, std::vector<int>& count) {
     std::vector<Candidate> list;
-    for (std::size_t i = 0, j; i < planes.size(); i = j) {
-        for (j = i; j < planes.size() && planes[j] == planes[i];) ++j;
-        if (std::find(excluded.begin(), excluded.end(), planes[i]) == excluded.end())
-            list.push_back({planes[i], static_cast<int>(j - i)});
-    }
-    std::stable_sort(list.begin(), list.end(), [](const Candidate& a, const Candidate& b) {
-        return a.carried > b.carried;
+    for (const int p : planes_of_edges)
+        if (count[p]++ == 0 &&
+            std::find(excluded.begin(), excluded.end(), p) == excluded.end())
+            list.push_back({p, 0});
+    for (Candidate& c : list) c.carried = count[c.plane];
+    for (const int p : planes_of_edges) count[p] = 0;
+    std::sort(list.begin(), list.end(), [](const Candidate& a, const Candidate& b) {
+        return a.carried != b.carried ? a.carried > b.carried : a.plane < b.plane;
     });
     return list;
 }
 
-// Ends of the notch edges of a piece, one array per coordinate for the vector units.
+constexpr std::size_t kBlock = 64;
+
+// Ends of the notch edges of a piece, one array per coordinate and padded to whole blocks, so
+// that the compiler can use its vector units.
 struct EdgeEnds {
     std::array<std::vector<double>, 6> at;
-    std::size_t size() const { return at[0].size(); }
+    std::size_t size = 0;
+    void reserve(std::size_t n) {
+        for (std::vector<double>& a : at) a.assign((n + kBlock - 1) / kBlock * kBlock, 0);
+    }
     void add(const Vec3d& u, const Vec3d& v) {
         for (int k = 0; k < 3; ++k) {
-            at[k].push_back(u[k]);
-            at[k + 3].push_back(v[k]);
+            at[k][size] = u[k];
+            at[k + 3][size] = v[k];
         }
+        ++size;
     }
 };
 
-// How many edges a plane crosses, given up once that is `limit` or more.
+// How many edges a plane crosses, given up once that is `limit` or more. Padding is one point
+// twice, which no plane crosses.
 int count_crossed(const EdgeEnds& ends, const std::array<double, 4>& n, double reach, int limit) {
     int crossed = 0;
-    for (std::size_t from = 0; from < ends.size() && crossed < limit; from += 128) {
-        const std::size_t to = std::min(from + 128, ends.size());
-        int here = 0;
-        for (std::size_t i = from; i < to; ++i) {
-            const double u = n[0] * ends.at[0][i] + n[1] * ends.at[1][i] + n[2] * ends.at[2][i];
-            const double v = n[0] * ends.at[3][i] + n[1] * ends.at[4][i] + n[2] * ends.at[5][i];
-            const double low = std::min(u, v) + n[3], high = std::max(u, v) + n[3];
-            here += low < -reach && high > reach;
+    for (std::size_t from = 0; from < ends.size && crossed < limit; from += kBlock) {
+        std::array<const double*, 6> p;
+        for (int k = 0; k < 6; ++k) p[k] = ends.at[k].data() + from;
+        std::array<double, kBlock> u, v;
+        for (std::size_t i = 0; i < kBlock; ++i) {
+            u[i] = n[0] * p[0][i] + n[1] * p[1][i] + n[2] * p[2][i] + n[3];
+            v[i] = n[0] * p[3][i] + n[1] * p[4][i] + n[2] * p[5][i] + n[3];
         }
-        crossed += here;
+        for (std::size_t i = 0; i < kBlock; ++i)
+            crossed += static_cast<int>(u[i] > reach) & static_cast<int>(v[i] < -reach);
+        for (std::size_t i = 0; i < kBlock; ++i)
+            crossed += static_cast<int>(u[i] < -reach) & static_cast<int>(v[i] > reach);
     }
     return crossed;
+}
+
+// The first of the candidates that cross fewest edges; `clear` gets all that cross none, sorted.
+int fewest_crossed(const PointTable& points, const std::vector<Candidate>& list,
+                   const EdgeEnds& ends, double reach, std::vector<int>& clear) {
+    clear.clear();
+    int best = -1, fewest = static_cast<int>(ends.size) + 1;
+    for (const Candidate& c : list) {
+        const int limit = std::max(fewest, 1);
+        const int crossed = count_crossed(ends, points.unit_plane(c.plane), reach, limit);
+        if (crossed == 0) clear.push_back(c.plane);
+        if (crossed >= fewest) continue;
+        best = c.plane;
+        fewest = crossed;
+    }
+    std::sort(clear.begin(), clear.end());
+    return best;
 }
 
 void cover(std::vector<Notch>& notches, std::uint64_t seed) {
@@ -115,32 +141,32 @@ void assign_notches(std::vector<Notch>& notches, Rule rule, std::uint64_t seed) 
         n.assigned = rule == Rule::random && (next_random(state) & 1) ? n.plane_b : n.plane_a;
 }
 
-int choose_plane(PointTable& points, const HalfEdges& edges, const Piece& piece,
+int choose_plane(PointTable& points, const HalfEdges& edges, Piece& piece,
                  const std::vector<Notch>& notches, Rule rule, double reach,
-                 const std::vector<int>& excluded, std::uint64_t& state) {
-    EdgeEnds ends;
+                 const std::vector<int>& excluded, std::uint64_t& state, Workspace& work) {
+    std::vector<int> carried;  // half-edges of notches
     std::vector<int> planes;
     int lowest = -1;
     for (const int h : piece.edges) {
         const int n = edges[h].notch;
         if (n < 0 || h > edges[h].twin) continue;
-        if (rule == Rule::cover) ends.add(points.approx(edges[h].org), points.approx(edges.dest(h)));
+        carried.push_back(h);
         planes.push_back(notches[n].assigned);
         if (lowest < 0 || n < lowest) lowest = n;
     }
-    const std::vector<Candidate> list = candidates_of(planes, excluded);
+    work.plane_count.resize(static_cast<std::size_t>(points.planes()), 0);
+    const std::vector<Candidate> list = candidates_of(planes, excluded, work.plane_count);
     if (list.empty()) return -1;
     if (rule == Rule::random) return list[next_random(state) % list.size()].plane;
     if (rule == Rule::plain && excluded.empty()) return notches[lowest].assigned;
-    int best = -1, fewest = static_cast<int>(planes.size()) + 1;
-    for (const Candidate& c : list) {
-        const int crossed = count_crossed(ends, points.unit_plane(c.plane), reach, fewest);
-        if (crossed >= fewest) continue;
-        best = c.plane;
-        fewest = crossed;
-        if (fewest == 0) break;
-    }
-    return best;
+    for (const Candidate& c : list)
+        if (std::binary_search(piece.clear_planes.begin(), piece.clear_planes.end(), c.plane))
+            return c.plane;
+    EdgeEnds ends;
+    ends.reserve(carried.size());
+    for (const int h : carried)
+        ends.add(points.approx(edges[h].org), points.approx(edges.dest(h)));
+    return fewest_crossed(points, list, ends, reach, piece.clear_planes);
 }
 
 }  // namespace tetra::notch

@@ -51,7 +51,8 @@ private:
         std::vector<int> excluded, at_fault;
         for (;;) {
             const int plane = choose_plane(out_.points, out_.edges, piece, notches_,
-                                           rule_of(options_.rule), reach_, excluded, state_);
+                                           rule_of(options_.rule), reach_, excluded, state_,
+                                           work_);
             if (plane < 0) break;
             try {
                 cut(std::move(piece), trace(piece, plane), open);
@@ -70,11 +71,15 @@ private:
     }
 
     void cut(Piece&& piece, const Section& section, std::vector<Piece>& open) {
+        const std::vector<int> clear = std::move(piece.clear_planes);
         std::vector<Piece> parts =
             cut_piece(out_.points, out_.edges, std::move(piece), section, work_);
         ++out_.cuts;
         out_.splices += parts.size() == 1;
-        for (Piece& p : parts) open.push_back(std::move(p));
+        for (Piece& p : parts) {
+            p.clear_planes = clear;
+            open.push_back(std::move(p));
+        }
     }
 
     Section trace(Piece& piece, int plane) {

@@ -12,6 +12,8 @@ namespace tetra::notch {
 // A set of half-edges that bounds one or more solids, closed under twin and next.
 struct Piece {
     std::vector<int> edges;
+    // Planes known to cross no notch of the piece, and so of no part of it.
+    std::vector<int> clear_planes;
 };
 
 // Incidence and arithmetic contradict each other (plane classes only, NOTCHES 4). Found before
@@ -58,6 +60,7 @@ struct Workspace {
     std::vector<int> slot_stamp, slot;  // per key
     std::vector<int> label_stamp, label;  // per half-edge: the surface it is on
     std::vector<int> cycle_stamp;         // per half-edge
+    std::vector<int> plane_count;         // zero between uses
     int stamp = 0;
 };
 
