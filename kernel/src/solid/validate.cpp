@@ -207,7 +207,9 @@ Validation validate(const std::vector<Vec3d>& vertices, const std::vector<Triang
         return v;
     }
     const BoxTree tree = build_box_tree(o.surface.points, o.surface.triangles);
+    progress.poll("validate", 0);
     orient_shells(o, tree);
+    progress.poll("validate", 0);
     v.defects = flat_shell_defects(o.surface, o.shells);
     const Crossings crossings =
         find_crossings(o.surface, o.sheets, tree, options.max_crossings, progress);
