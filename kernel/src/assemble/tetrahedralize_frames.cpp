@@ -10,6 +10,8 @@ namespace {
 
 constexpr std::int64_t kLargestCoordinate = std::int64_t{1} << 26;  // of fence_off
 constexpr int kLargestEntry = 7;
+// More of them cost more time than their better choice saves.
+constexpr int kSampledLines = 1000;
 
 std::int64_t reach(const std::vector<Vec3i>& points) {
     std::int64_t most = 0;
@@ -63,6 +65,7 @@ std::vector<FenceDirection> choose_frames(const GridSolid& solid, const std::vec
         DirectionOptions rating;
         rating.candidates = options.candidates;
         rating.largest_entry = kLargestEntry;
+        rating.sampled_lines = kSampledLines;
         all = fence_directions(solid.points, solid.triangles, owners, rating, progress);
     }
     trials.clear();

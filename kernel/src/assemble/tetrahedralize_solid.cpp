@@ -16,7 +16,17 @@ struct Attempt {
     std::size_t frame = 0;
     PullPolicy pull = PullPolicy::automatic;
     CompactLevel compact = CompactLevel::standard;
+    int other_seed = 0;
 };
+
+// How far a verified mesh is from the promise that input vertices come back bit for bit and other
+// points lie on the caller's surface.
+int imperfection(const SolidTets& tets) {
+    return tets.report.restore.vertices_on_grid + tets.report.restore.steiner_off_plane;
+}
+
+// How many imperfect meshes are made before the best of them is taken.
+constexpr int kMostImperfect = 6;
 
 class SolidWorker {
   public:
@@ -36,11 +46,15 @@ class SolidWorker {
 
     SolidTets run() {
         prepare();
-        SolidTets result;
-        if (succeeds({0, options_.pull_off, options_.compact.level}, result)) return result;
-        for (const Attempt& a : further_attempts())
-            if (succeeds(a, result)) return result;
-        std::rethrow_exception(last_failure_);
+        const CompactLevel level = options_.compact.level;
+        bool done = tries({0, options_.pull_off, level, 0});
+        if (!done)
+            for (const Attempt& a : further_attempts())
+                if ((done = tries(a))) break;
+        if (!best_) std::rethrow_exception(last_failure_);
+        best_->report.repairs = std::move(report_.repairs);
+        best_->report.directions = std::move(report_.directions);
+        return std::move(*best_);
     }
 
   private:
@@ -61,10 +75,20 @@ class SolidWorker {
         }
     }
 
-    bool succeeds(const Attempt& a, SolidTets& result) {
+    // True when nothing is left to wish for.
+    bool tries(const Attempt& a) {
+        if (a.compact != options_.compact.level && best_) return true;
+        if (a.other_seed > 0 && !best_) return false;
         try {
-            result = attempt(a);
-            return true;
+            SolidTets result = attempt(a);
+            const int score = imperfection(result);
+            if (score > 0) {
+                ++imperfect_;
+                report_.repairs.push_back(name_of(a) + ": " + std::to_string(score) +
+                                          " points could not be restored");
+            }
+            if (!best_ || score < imperfection(*best_)) best_ = std::move(result);
+            return score == 0 || imperfect_ >= kMostImperfect;
         } catch (const VerificationFailed& e) {
             note_failure(a, e.what());
         } catch (const InvalidSolid& e) {
@@ -73,11 +97,16 @@ class SolidWorker {
         return false;
     }
 
-    void note_failure(const Attempt& a, const char* what) {
+    std::string name_of(const Attempt& a) const {
         std::string name = "direction " + frames_[a.frame].name;
         if (a.pull == PullPolicy::off) name += ", no pull-off";
         if (a.compact == CompactLevel::none) name += ", not compacted";
-        report_.repairs.push_back(name + ": " + what);
+        if (a.other_seed > 0) name += ", other seed";
+        return name;
+    }
+
+    void note_failure(const Attempt& a, const char* what) {
+        report_.repairs.push_back(name_of(a) + ": " + what);
         last_failure_ = std::current_exception();
     }
 
@@ -86,12 +115,14 @@ class SolidWorker {
             frames_ = choose_frames(input_.grid, owners_, options_, report_.directions, progress_);
         std::vector<Attempt> list;
         const CompactLevel level = options_.compact.level;
-        if (consumed_ || report_.pulled != "none") list.push_back({0, PullPolicy::off, level});
+        if (level != CompactLevel::none)
+            for (const int seed : {1, 2}) list.push_back({0, options_.pull_off, level, seed});
+        if (consumed_ || report_.pulled != "none") list.push_back({0, PullPolicy::off, level, 0});
         for (std::size_t f = 1; f < frames_.size(); ++f)
-            list.push_back({f, options_.pull_off, level});
+            list.push_back({f, options_.pull_off, level, 0});
         if (level != CompactLevel::none)
             for (std::size_t f = 0; f < frames_.size(); ++f)
-                list.push_back({f, PullPolicy::off, CompactLevel::none});
+                list.push_back({f, PullPolicy::off, CompactLevel::none, 0});
         return list;
     }
 
@@ -104,6 +135,7 @@ class SolidWorker {
             const StageClock::Scope scope(clock_, "compact");
             CompactOptions compact_options = options_.compact;
             compact_options.level = a.compact;
+            compact_options.seed += static_cast<std::uint64_t>(a.other_seed);
             report_.compact =
                 compact(result.mesh, input_.grid, input_.faces, compact_options, progress_);
         }
@@ -111,7 +143,7 @@ class SolidWorker {
         {
             const StageClock::Scope scope(clock_, "restore");
             RestoreOptions restore_options;
-            restore_options.seed = options_.compact.seed;
+            restore_options.seed = options_.compact.seed + static_cast<std::uint64_t>(a.other_seed);
             restore_options.quality_below = options_.quality ? 0.05 : 0;
             Restored restored = restore(result.mesh, input_.grid, input_.caller.vertices,
                                         input_.faces, restore_options, progress_);
@@ -191,8 +223,10 @@ class SolidWorker {
     std::vector<FenceDirection> frames_;
     PullOff everything_;
     bool consumed_ = false;
-    SolidReport report_;
+    SolidReport report_;  // of the attempt under way
     std::exception_ptr last_failure_;
+    std::optional<SolidTets> best_;
+    int imperfect_ = 0;
 };
 
 }  // namespace
