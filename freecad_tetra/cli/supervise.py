@@ -20,7 +20,7 @@ from types import FrameType
 from freecad_tetra.export import temporary_name
 
 CANCELLED = 130
-_PATIENCE = 0.25  # seconds that the child has to stop by itself
+_PATIENCE = 0.1  # seconds that the child has to stop by itself
 _SET_PARENT_DEATH_SIGNAL = 1
 _READING = ("start", "read", "tessellate")
 

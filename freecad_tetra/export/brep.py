@@ -17,12 +17,16 @@ from freecad_tetra.errors import MissingDependency, TetraError
 from freecad_tetra.model import ConvexCells, FloatArray, IntArray
 
 _TOLERANCE = 1e-7  # OpenCascade's smallest
+_SHORT = 3e-7  # edges between two points that the tolerance cannot keep apart
 _FLAGS = {"Ve": "0101101", "Ed": "0101000", "Wi": "0101100", "Fa": "0111000", "Sh": "0101100",
           "So": "0100000", "Co": "1100000"}  # fmt: skip
 
 
 def write_cells(cells: ConvexCells, stream: BinaryIO) -> None:
-    """Write one compound with one solid per cell, in the order of the cells."""
+    """Write one compound with one solid per cell, in the order of the cells.
+
+    Edges shorter than OpenCascade can tell are closed, and what they bounded goes.
+    """
     stream.write(_Text(cells).assembled().encode("ascii"))
 
 
@@ -67,13 +71,14 @@ class _Text:
         self._shapes: list[tuple[str, str, list[int]]] = []
         self._edges: dict[tuple[int, int], int] = {}
         self._faces: dict[tuple[int, ...], int] = {}
-        self._planes = [_plane(cells.points[cells.facet(f)]) for f in range(_facets(cells))]
+        self._loops = _loops_without_short_edges(cells)
+        self._planes = [_plane(cells.points[loop]) for loop in self._loops]
         self._slack = self._deviations()
         self._vertices = self._make_vertices()
 
     def assembled(self) -> str:
         """Return the whole file."""
-        solids = [self._solid(k) for k in range(len(self._cells))]
+        solids = [self._solid(k) for k in range(len(self._cells)) if self._is_solid(k)]
         self._add("Co", "", solids)
         total = len(self._shapes)
         rows = [
@@ -98,7 +103,9 @@ class _Text:
         """Return per point how far it lies from the planes of its facets, (p,) float64."""
         slack = np.full(len(self._cells.points), _TOLERANCE)
         for f, (origin, normal, _) in enumerate(self._planes):
-            loop = self._cells.facet(f)
+            loop = self._loops[f]
+            if len(loop) < 3:
+                continue
             off = np.abs((self._cells.points[loop] - origin) @ normal).max()
             slack[loop] = np.maximum(slack[loop], 1.1 * off)
         return slack
@@ -110,13 +117,17 @@ class _Text:
             for (x, y, z), slack in points
         ]
 
+    def _is_solid(self, k: int) -> bool:
+        return sum(len(self._loops[f]) > 2 for f in self._cells.cell_facets(k)) > 3
+
     def _solid(self, k: int) -> int:
-        faces = [self._face(f) for f in self._cells.cell_facets(k)]
+        kept = [f for f in self._cells.cell_facets(k) if len(self._loops[f]) > 2]
+        faces = [self._face(f) for f in kept]
         return self._add("So", "", [self._add("Sh", "", faces)])
 
     def _face(self, f: int) -> int:
         """Return a face, negative when it is the other side of one made before."""
-        loop = self._cells.facet(f)
+        loop = self._loops[f]
         back = self._faces.get(_cycle(loop[::-1]))
         if back is not None:
             return -back
@@ -144,8 +155,25 @@ class _Text:
         return known if a == low else -known
 
 
-def _facets(cells: ConvexCells) -> int:
-    return max(0, len(cells.facet_offsets) - 1)
+def _loops_without_short_edges(cells: ConvexCells) -> list[IntArray]:
+    """Return the loop of every facet with the ends of short edges made one."""
+    parent = np.arange(len(cells.points), dtype=np.int32)
+    loops = [cells.facet(f) for f in range(len(cells.facet_offsets) - 1)]
+    start = np.concatenate(loops) if loops else np.zeros(0, np.int32)
+    stop = np.concatenate([np.roll(x, -1) for x in loops]) if loops else start
+    lengths = np.linalg.norm(cells.points[start] - cells.points[stop], axis=1)
+    for i in np.flatnonzero(lengths < _SHORT):
+        a, b = _root(parent, int(start[i])), _root(parent, int(stop[i]))
+        parent[max(a, b)] = min(a, b)
+    root = np.array([_root(parent, i) for i in range(len(parent))], np.int32)
+    closed = [root[loop] for loop in loops]
+    return [loop[loop != np.roll(loop, 1)] for loop in closed]
+
+
+def _root(parent: IntArray, i: int) -> int:
+    while parent[i] != i:
+        i = int(parent[i])
+    return i
 
 
 def _words(values: Any) -> str:
@@ -159,11 +187,15 @@ def _cycle(loop: IntArray) -> tuple[int, ...]:
 
 def _plane(loop: FloatArray) -> tuple[FloatArray, FloatArray, FloatArray]:
     """Return (origin, unit normal, unit x) of a loop, by Newell's rule."""
+    if len(loop) < 3:
+        return np.zeros(3), np.array([0.0, 0.0, 1.0]), np.array([1.0, 0.0, 0.0])
     shifted = loop - loop[0]
     normal = np.cross(shifted, np.roll(shifted, -1, axis=0)).sum(axis=0)
-    size = np.linalg.norm(normal)
-    normal = normal / size if size > 0 else np.array([0.0, 0.0, 1.0])
-    axis = np.zeros(3)
-    axis[int(np.argmin(np.abs(normal)))] = 1.0
-    x = np.cross(axis, normal)
-    return loop.mean(axis=0), normal, x / np.linalg.norm(x)
+    sides = np.roll(loop, -1, axis=0) - loop
+    x = sides[int(np.argmax(np.linalg.norm(sides, axis=1)))]
+    x = x / np.linalg.norm(x)
+    # A sliver's normal is noise: it has at least to be perpendicular to its long side.
+    normal = normal - (normal @ x) * x
+    if not np.linalg.norm(normal) > 0:
+        normal = np.cross(x, np.eye(3)[int(np.argmin(np.abs(x)))])
+    return loop.mean(axis=0), normal / np.linalg.norm(normal), x

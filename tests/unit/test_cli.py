@@ -261,7 +261,7 @@ def test_ctrl_c_in_opencascade(tmp_path: Path) -> None:
 
     source = tmp_path / "torus.brep"
     BRepTools.Write_s(BRepPrimAPI_MakeTorus(100, 30).Solid(), str(source))
-    words = ["info", source, "--linear-deflection", 0.00005, "--angular-deflection", 0.05]
+    words = ["info", source, "--linear-deflection", 0.0005, "--angular-deflection", 0.1]
     code, seconds, stderr = interrupted(words, 3.0)
     assert code == 130 and stderr == "cancelled\n"
     assert seconds < 0.5
