@@ -235,7 +235,25 @@ def nut(turn: tuple[float, float, float] = (0, 0, 17)) -> Surface:
 
 
 def cgal_issue_8379() -> Surface:
-    """Box 10 x 10 x 8 minus box 8 x 8 x 10, united with box 12 x 12 x 4, all centred."""
+    """Box 10 x 10 x 8 minus box 8 x 8 x 10, united with box 12 x 12 x 4, all centred.
+
+    A stack of squares joined by strips, from the upper floor inside the frame to the lower one.
+    """
+    stack = [(4, 2), (4, 4), (5, 4), (5, 2), (6, 2), (6, -2), (5, -2), (5, -4), (4, -4), (4, -2)]
+    vertices = [
+        (x * r, y * r, z) for r, z in stack for x, y in ((-1, -1), (1, -1), (1, 1), (-1, 1))
+    ]
+    last = len(vertices) - 4
+    triangles = [(0, 1, 2), (0, 2, 3), (last, last + 2, last + 1), (last, last + 3, last + 2)]
+    for low in range(0, last, 4):
+        for i in range(4):
+            a, b = low + i, low + (i + 1) % 4
+            triangles += [(a, a + 4, b + 4), (a, b + 4, b)]
+    return surface_of(vertices, triangles)
+
+
+def cgal_issue_8379_gridded() -> Surface:
+    """The same solid with its faces divided along all its grid planes."""
     full = np.zeros((5, 5, 3))
     full[:, :, 1] = 1
     full[1:4, 1:4, :] = 1
@@ -372,11 +390,13 @@ def named_shapes() -> list[NamedShape]:
         NamedShape("vertex_contact", cubes_touching_in_a_vertex(), 2, 2, shells=2),
         NamedShape("vertex_on_a_face", vertex_on_a_face(), 576 + 128 / 3, 2, shells=2),
         NamedShape("stairs", stairs(), 960, 5),
-        NamedShape("spiral_staircase", spiral_staircase(), 16),
+        NamedShape("spiral_staircase", spiral_staircase(), 16, 8),
         NamedShape("turned_nut", nut(), 8 * ring_area, 6, genus=1),
         NamedShape("nut_turned_oddly", nut(odd), 8 * ring_area, 6, genus=1),
         NamedShape("cgal_8379", cgal_issue_8379(), 720, 9),
         NamedShape("cgal_8379_turned", turned(cgal_issue_8379(), odd), 720, 9),
+        NamedShape("cgal_8379_gridded", cgal_issue_8379_gridded(), 720, 9),
+        NamedShape("cgal_8379_gridded_turned", turned(cgal_issue_8379_gridded(), odd), 720),
         NamedShape("plate_with_100_holes", plate_with_holes(), 341 * 64, genus=100),
         NamedShape("schoenhardt", schoenhardt(), volume_of(schoenhardt())),
         NamedShape("spike_cup", spike_cup(), 1600),

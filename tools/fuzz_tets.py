@@ -15,7 +15,7 @@ from typing import Any
 
 from fuzz_solids import parse_arguments, run
 
-from check_solids import check_tets  # isort: skip
+from check_solids import check_tets_at_once  # isort: skip
 from random_solids import random_solid  # isort: skip
 
 
@@ -31,4 +31,4 @@ def options_of(seed: int) -> dict[str, Any]:
 
 if __name__ == "__main__":
     arguments = parse_arguments(__doc__.splitlines()[0], 100_000)
-    sys.exit(1 if run("tets", arguments, random_solid, options_of, check_tets) else 0)
+    sys.exit(1 if run("tets", arguments, random_solid, options_of, check_tets_at_once) else 0)

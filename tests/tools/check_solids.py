@@ -92,11 +92,21 @@ def check_tets(surface: Surface, options: dict[str, Any]) -> dict[str, float]:
     ------
     Unfit
         For an invalid surface.
-    Repaired
-        When the first attempt failed inside the kernel and a later one did not.
     NotATetMesh, Exception
         Whatever fails.
     """
+    return _check_tets(surface, options)[0]
+
+
+def check_tets_at_once(surface: Surface, options: dict[str, Any]) -> dict[str, float]:
+    """Like `check_tets`, but raises Repaired when the kernel's first attempt failed."""
+    counts, attempts = _check_tets(surface, options)
+    if attempts:
+        raise Repaired("; ".join(attempts))
+    return counts
+
+
+def _check_tets(surface: Surface, options: dict[str, Any]) -> tuple[dict[str, float], list[str]]:
     checked = validated(surface)
     vertices = np.ascontiguousarray(surface[0], float)
     triangles: npt.NDArray[np.int32] = checked["triangles"]
@@ -113,12 +123,10 @@ def check_tets(surface: Surface, options: dict[str, Any]) -> dict[str, float]:
     )
     report = found["report"]
     attempts = [text for solid in report["solids"] for text in solid["failed_attempts"]]
-    if attempts:
-        raise Repaired("; ".join(attempts))
     own = set(found["point_source"][found["point_source"] >= 0].tolist())
     used = np.unique(triangles)
     result["lost"] = sum(int(v) not in own for v in used)
     result["steiner"] = int((found["point_source"] < 0).sum())
     result["triangles"] = len(triangles)
     result["on_grid"] = report["repairs"]["vertices_on_grid"]
-    return result
+    return result, attempts
