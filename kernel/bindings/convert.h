@@ -43,7 +43,9 @@ inline std::vector<int> to_ids(const IdArray& a) {
 // An optional array of an options dict, or of an argument that may be None: empty when absent.
 inline std::vector<int> optional_ids(nb::handle value) {
     if (!value.is_valid() || value.is_none()) return {};
-    return to_ids(nb::cast<IdArray>(value));
+    IdArray array;
+    if (!nb::try_cast(value, array)) throw nb::type_error("expected a one-dimensional i32 array");
+    return to_ids(array);
 }
 
 inline nb::object option(const nb::dict& options, const char* name) {
