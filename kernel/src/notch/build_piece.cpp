@@ -60,6 +60,7 @@ public:
         add_triangles();
         pair_edges();
         dissolve_and_straighten();
+        set_plane_lines();
         number_notches(notches);
         return std::move(piece_);
     }
@@ -127,6 +128,25 @@ private:
         for (const int h : piece_.edges)
             if (edges_.alive(h)) edges_.straighten(h);
         std::erase_if(piece_.edges, [&](int h) { return !edges_.alive(h); });
+    }
+
+    // An edge whose ends were moved onto its planes lies on their line, not on a grid line.
+    void set_plane_lines() {
+        for (const int h : piece_.edges) {
+            const int t = edges_[h].twin;
+            const int p = plane_of(edges_[h].key), q = plane_of(edges_[t].key);
+            if (h > t || p == q) continue;
+            const int u = edges_[h].org, v = edges_[t].org;
+            const Line& line = points_.line(edges_[h].line);
+            const bool as_given = !points_.is_moved(u) && !points_.is_moved(v) &&
+                                  std::minmax(line.u, line.v) == std::minmax(u, v);
+            if (as_given) continue;
+            bool on = true;
+            for (const int w : {u, v})
+                on &= points_.is_exactly_on(w, p) && points_.is_exactly_on(w, q);
+            edges_[h].line = edges_[t].line =
+                on ? points_.plane_line(p, q) : points_.input_line(u, v);
+        }
     }
 
     void number_notches(std::vector<Notch>& notches) {

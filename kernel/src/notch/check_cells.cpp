@@ -4,22 +4,24 @@
 
 #include <algorithm>
 
+#include "volume_residue.h"
+
 namespace tetra::notch {
 namespace {
 
 class Checker {
 public:
-    Checker(const GridSolid& solid, Decomposition& result, bool exact)
-        : solid_(solid), r_(result), exact_(exact) {}
+    explicit Checker(Decomposition& result) : r_(result) {}
 
     Fault run() {
         seen_.assign(static_cast<std::size_t>(r_.edges.size()), 0);
         for (const int seed : r_.cells) {
             gather(seed);
             if (Fault fault = check_cell(); !fault.reason.empty()) return fault;
-            if (exact_) add_volume();
+            if (r_.exact) surface_.insert(surface_.end(), cell_.begin(), cell_.end());
         }
-        if (exact_ && total_ != solid_volume()) return {"volumes do not add up", {}};
+        if (r_.exact && volume_residue(r_.points, r_.edges, surface_) != r_.volume)
+            return {"volumes do not add up", {}};
         return {};
     }
 
@@ -67,7 +69,7 @@ private:
             for (const int v : vertices_) {
                 if (sign * r_.points.distance(v, plane) < -kClassReach) continue;
                 if (sign * r_.points.distance(v, plane) > kClassReach ||
-                    (exact_ && r_.points.side(v, plane) * sign > 0))
+                    (r_.exact && r_.points.side(v, plane) * sign > 0))
                     return {"a cell is not convex", with(plane, r_.points.on(v))};
             }
         }
@@ -79,65 +81,15 @@ private:
         return planes;
     }
 
-    std::array<std::uint64_t, 3> residue(int v) {
-        if (residues_.size() < static_cast<std::size_t>(r_.points.points())) {
-            residues_.resize(static_cast<std::size_t>(r_.points.points()));
-            known_.resize(residues_.size(), 0);
-        }
-        if (!known_[v]) {
-            residues_[v] = residues(r_.points.exact(v));
-            known_[v] = 1;
-        }
-        return residues_[v];
-    }
-
-    static std::uint64_t minus(std::uint64_t a, std::uint64_t b) {
-        return a >= b ? a - b : a + kHashPrime - b;
-    }
-    static std::uint64_t plus(std::uint64_t a, std::uint64_t b) {
-        const std::uint64_t s = a + b;
-        return s >= kHashPrime ? s - kHashPrime : s;
-    }
-
-    // Six times the signed volume of (origin, a, b, c).
-    std::uint64_t determinant(int a, int b, int c) {
-        const auto p = residue(a), q = residue(b), r = residue(c);
-        std::uint64_t sum = 0;
-        for (int k = 0; k < 3; ++k) {
-            const int u = (k + 1) % 3, v = (k + 2) % 3;
-            sum = plus(sum, multiply_mod(p[k], minus(multiply_mod(q[u], r[v]),
-                                                     multiply_mod(q[v], r[u]))));
-        }
-        return sum;
-    }
-
-    void add_volume() {
-        for (const int f : facets_) {
-            const int first = r_.edges[f].org;
-            for (int i = r_.edges[f].next; r_.edges[i].next != f; i = r_.edges[i].next)
-                total_ = plus(total_, determinant(first, r_.edges[i].org, r_.edges.dest(i)));
-        }
-    }
-
-    std::uint64_t solid_volume() {
-        std::uint64_t sum = 0;
-        for (const Triangle& t : solid_.triangles) sum = plus(sum, determinant(t[0], t[1], t[2]));
-        return sum;
-    }
-
-    const GridSolid& solid_;
     Decomposition& r_;
-    bool exact_;
-    std::vector<char> seen_, known_;
-    std::vector<int> cell_, facets_, vertices_;
-    std::vector<std::array<std::uint64_t, 3>> residues_;
-    std::uint64_t total_ = 0;
+    std::vector<char> seen_;
+    std::vector<int> cell_, facets_, vertices_, surface_;
 };
 
 }  // namespace
 
-Fault find_fault(const GridSolid& solid, Decomposition& result, bool exact) {
-    return Checker(solid, result, exact).run();
+Fault find_fault(Decomposition& result) {
+    return Checker(result).run();
 }
 
 }  // namespace tetra::notch

@@ -16,9 +16,9 @@ struct Fault {
 
 // None when every cell is closed, has one facet per plane, no reflex edge, every vertex inside
 // all its planes, and 6 x volume adds up to the solid's modulo 2^61 - 1; else what is wrong.
-// With plane classes in use (`exact` false) vertices may lie outside by the classes' reach and
+// Unless result.exact, vertices may lie outside by the classes' reach and
 // volumes are compared by the caller on the evaluated points instead. Linear in the output, but
 // for the vertex test, which is vertices x facets of each cell.
-Fault find_fault(const GridSolid& solid, Decomposition& result, bool exact);
+Fault find_fault(Decomposition& result);
 
 }  // namespace tetra::notch

@@ -54,7 +54,6 @@ struct Attempt {
     Decomposition result;
     double delta = 0;
     int restarts = 0, demoted = 0;
-    bool exact = true;
 };
 
 constexpr int kMaxRestarts = 24;
@@ -83,10 +82,9 @@ private:
         Attempt a{Decomposition(solid.grid.bits)};
         for (a.delta = options_.flatness; a.delta > 0 && a.restarts <= kMaxRestarts;) {
             a.result = decompose(solid, options_, a.delta, demoted, seed, progress_);
-            a.exact = is_exact(a.result.classes);
             std::vector<std::vector<int>> at_fault = a.result.contradictions;
             if (at_fault.empty()) {
-                Fault fault = find_fault(solid, a.result, a.exact);
+                Fault fault = find_fault(a.result);
                 if (fault.reason.empty()) return a;
                 at_fault.push_back(std::move(fault.planes));
             }
@@ -94,18 +92,12 @@ private:
             if (!demote(a.result.classes, at_fault, demoted, a.demoted)) break;
         }
         a.delta = 0;
-        a.exact = true;
         a.result = decompose(solid, options_, 0, {}, seed, progress_);
         if (!a.result.contradictions.empty())
             throw VerificationFailed("notch cutting: a section does not close");
-        const Fault fault = find_fault(solid, a.result, true);
+        const Fault fault = find_fault(a.result);
         if (!fault.reason.empty()) throw VerificationFailed("notch cutting: " + fault.reason);
         return a;
-    }
-
-    static bool is_exact(const PlaneClasses& classes) {
-        return std::find(classes.is_class.begin(), classes.is_class.end(), 1) ==
-               classes.is_class.end();
     }
 
     // Takes back the smallest class of each contradiction: the exact planes of its triangles are
@@ -188,8 +180,8 @@ private:
         s.raw_cells += a.result.raw_cells;
         s.restarts += a.restarts;
         s.demoted += a.demoted;
-        s.flatness = std::max(s.flatness, a.exact ? 0 : a.delta);
-        s.exact = s.exact && a.exact;
+        s.flatness = std::max(s.flatness, a.result.uses_classes() ? a.delta : 0);
+        s.exact = s.exact && a.result.exact;
     }
 
     const std::vector<Vec3d>& vertices_;

@@ -2,10 +2,13 @@
 // The cutting loop.
 #include "decompose.h"
 
+#include <algorithm>
 #include <set>
 
 #include "cut.h"
 #include "merge_cells.h"
+#include "place_vertices.h"
+#include "volume_residue.h"
 
 namespace tetra::notch {
 namespace {
@@ -15,7 +18,7 @@ Rule rule_of(NotchRule rule) {
                                     : (rule == NotchRule::random ? Rule::random : Rule::cover);
 }
 
-constexpr std::size_t kPlanesTried = 8;
+constexpr std::size_t kPlanesTried = 32;
 
 class Run {
 public:
@@ -30,6 +33,8 @@ public:
 
     void cut_all(std::uint64_t seed) {
         Piece whole = build_piece(solid_, out_.classes, out_.points, out_.edges, notches_);
+        out_.exact = lies_on_planes(whole);
+        out_.volume = volume_residue(out_.points, out_.edges, whole.edges);
         assign_notches(notches_, rule_of(options_.rule), seed);
         out_.notches = static_cast<int>(notches_.size());
         std::set<int> planes;
@@ -47,6 +52,14 @@ public:
     }
 
 private:
+    // Whether arithmetic agrees with incidence at every vertex.
+    bool lies_on_planes(const Piece& piece) const {
+        return std::all_of(piece.edges.begin(), piece.edges.end(), [&](int h) {
+            const HalfEdge& e = out_.edges[h];
+            return out_.points.is_exactly_on(e.org, plane_of(e.key));
+        });
+    }
+
     void step(Piece&& piece, std::vector<Piece>& open) {
         std::vector<int> excluded, at_fault;
         for (;;) {
@@ -66,8 +79,34 @@ private:
         }
         if (excluded.empty())
             close(piece);
-        else
+        else if (!cut_with_other_plane(piece, excluded, open))
             out_.contradictions.push_back(std::move(at_fault));
+    }
+
+    // The facet planes that the cover left out may work where the assigned ones contradict
+    // themselves: any plane through a notch resolves it.
+    bool cut_with_other_plane(Piece& piece, const std::vector<int>& excluded,
+                              std::vector<Piece>& open) {
+        std::set<int> others;
+        for (const int h : piece.edges)
+            if (const int n = out_.edges[h].notch; n >= 0) {
+                others.insert(plane_of(out_.edges[h].key));
+                others.insert(notches_[n].plane_a);
+                others.insert(notches_[n].plane_b);
+            }
+        std::size_t tried = 0;
+        for (const int plane : others) {
+            if (std::find(excluded.begin(), excluded.end(), plane) != excluded.end()) continue;
+            if (++tried > kPlanesTried) return false;
+            try {
+                const Section section = trace(piece, plane);
+                cut(std::move(piece), section, open);
+                return true;
+            } catch (const Inconsistent&) {
+                continue;
+            }
+        }
+        return false;
     }
 
     void cut(Piece&& piece, const Section& section, std::vector<Piece>& open) {
@@ -147,8 +186,8 @@ Decomposition decompose(const GridSolid& solid, const CellsOptions& options, dou
                         const std::vector<char>& demoted, std::uint64_t seed,
                         Progress& progress) {
     Decomposition out(solid.grid.bits);
-    for (const Vec3i& p : solid.points) out.points.add_input(p);
     out.classes = assign_planes(solid, delta, demoted, out.points);
+    place_vertices(solid, out.classes, out.points);
     Run(solid, options, delta, out, progress).cut_all(seed);
     out.raw_cells = static_cast<int>(out.cells.size());
     if (options.merge && out.contradictions.empty()) out.cells = merge_cells(out.points, out.edges, out.cells);

@@ -2,6 +2,8 @@
 // One run of notch cutting over one solid: cut until no piece has a notch, then merge.
 #pragma once
 
+#include <algorithm>
+
 #include "choose_plane.h"
 #include "tetra/notch/convex_cells.h"
 
@@ -10,6 +12,10 @@ namespace tetra::notch {
 // What a run leaves behind: half-edges whose surfaces are the convex cells.
 struct Decomposition {
     explicit Decomposition(int grid_bits) : points(grid_bits) {}
+    bool uses_classes() const {
+        return std::find(classes.is_class.begin(), classes.is_class.end(), 1) !=
+               classes.is_class.end();
+    }
 
     PointTable points;
     HalfEdges edges;
@@ -18,6 +24,8 @@ struct Decomposition {
     // Pieces that no plane could cut because classes contradict themselves there: the planes of
     // each. Empty for a usable result.
     std::vector<std::vector<int>> contradictions;
+    bool exact = true;         // every input vertex is on its planes by arithmetic too
+    std::uint64_t volume = 0;  // six times the input's, modulo 2^61 - 1
     int notches = 0, planes = 0, cuts = 0, splices = 0, raw_cells = 0;
 };
 

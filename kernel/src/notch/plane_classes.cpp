@@ -57,10 +57,8 @@ public:
         make_groups();
         if (delta_ > 0) grow_classes();
         result_.is_class.resize(static_cast<std::size_t>(points_.planes()), 0);
-        for (std::size_t t = 0; t < solid_.triangles.size(); ++t) {
+        for (std::size_t t = 0; t < solid_.triangles.size(); ++t)
             result_.is_class[plane(t)] |= result_.key[t] != result_.exact_key[t];
-            for (const int v : solid_.triangles[t]) points_.set_on(v, plane(t));
-        }
         return std::move(result_);
     }
 

@@ -15,7 +15,7 @@ struct PlaneClasses {
     std::vector<char> is_class;   // per plane id: holds triangles that are not exactly on it
 };
 
-// Gives every triangle a plane and marks its vertices as on it. With delta > 0 (grid steps),
+// Gives every triangle a plane. With delta > 0 (grid steps),
 // exactly coplanar groups whose vertices all lie within delta of a larger group's plane take that
 // plane (NOTCHES 4); groups whose exact plane is listed in `demoted` stay exact.
 PlaneClasses assign_planes(const GridSolid& solid, double delta, const std::vector<char>& demoted,

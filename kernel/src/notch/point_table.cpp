@@ -29,11 +29,20 @@ const Int256& coordinate(const HPoint& p, int axis) {
 }  // namespace
 
 int PointTable::add_input(const Vec3i& point) {
-    // Input points are distinct by contract, so they need no interning look-up of their own.
-    inputs_.push_back(point);
     const Vec3d approx{static_cast<double>(point[0]), static_cast<double>(point[1]),
                        static_cast<double>(point[2])};
-    return intern(hpoint(point), approx);
+    const int id = add_moved_input(point, hpoint(point), approx);
+    moved_.back() = 0;
+    return id;
+}
+
+int PointTable::add_moved_input(const Vec3i& grid, const HPoint& exact, const Vec3d& approx) {
+    // Every input point has an id of its own, also where two of them should fall together.
+    inputs_.push_back(grid);
+    moved_.push_back(1);
+    std::uint64_t cell = 0;
+    find(exact, approx, cell);
+    return append(exact, approx, cell);
 }
 
 int PointTable::add_plane(const Plane& plane) {
@@ -91,7 +100,7 @@ int PointTable::meet(int line, int plane, int also_p, int also_q) {
     return id;
 }
 
-int PointTable::intern(const HPoint& exact, const Vec3d& approx) {
+int PointTable::find(const HPoint& exact, const Vec3d& approx, std::uint64_t& cell) const {
     // Cells of 1/256 step: equal points round to the same cell or to neighbours across a border
     // that is nearer than the error of their approximations.
     std::array<double, 3> base{};
@@ -102,6 +111,7 @@ int PointTable::intern(const HPoint& exact, const Vec3d& approx) {
         const double part = s - base[k], reach = tolerance_ * 256;
         other[k] = part < reach ? base[k] - 1 : (part > 1 - reach ? base[k] + 1 : base[k]);
     }
+    cell = cell_key(base[0], base[1], base[2]);
     for (int mask = 0; mask < 8; ++mask) {
         bool skip = false;
         std::array<double, 3> c = base;
@@ -118,14 +128,23 @@ int PointTable::intern(const HPoint& exact, const Vec3d& approx) {
             if (gap <= 2 * tolerance_ && same_point(exact_[i], exact)) return i;
         }
     }
+    return -1;
+}
+
+int PointTable::intern(const HPoint& exact, const Vec3d& approx) {
+    std::uint64_t cell = 0;
+    const int id = find(exact, approx, cell);
+    return id >= 0 ? id : append(exact, approx, cell);
+}
+
+int PointTable::append(const HPoint& exact, const Vec3d& approx, std::uint64_t cell) {
     const int id = points();
     exact_.push_back(exact);
     approx_.push_back(approx);
     on_.emplace_back();
     line_of_.push_back(-1);
-    const std::uint64_t key = cell_key(base[0], base[1], base[2]);
-    next_in_cell_.push_back(cells_.find(key));
-    cells_.insert(key, id);
+    next_in_cell_.push_back(cells_.find(cell));
+    cells_.insert(cell, id);
     return id;
 }
 

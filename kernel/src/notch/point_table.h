@@ -27,6 +27,8 @@ public:
     explicit PointTable(int grid_bits) : tolerance_(std::ldexp(1.0, grid_bits - 46)) {}
 
     int add_input(const Vec3i& point);
+    // An input point that lies on three planes of its facets instead of on the grid.
+    int add_moved_input(const Vec3i& grid, const HPoint& exact, const Vec3d& approx);
     int add_plane(const Plane& plane);  // interned; returns key = 2 id + (reversed ? 1 : 0)
     int input_line(int u, int v);
     int plane_line(int p, int q);
@@ -35,6 +37,10 @@ public:
 
     void set_on(int point, int plane);
     bool is_on(int point, int plane) const;
+    // By arithmetic alone.
+    bool is_exactly_on(int point, int plane) const {
+        return side_of_plane(planes_[plane], exact_[point]) == 0;
+    }
     // Sign of plane (as stored) at point: 0 by incidence, else arithmetic.
     int side(int point, int plane);
     // Sign of coordinate `axis` of a minus that of b, exactly.
@@ -57,6 +63,7 @@ public:
     const std::vector<int>& on(int point) const { return on_[point]; }
     int defining_line(int point) const { return line_of_[point]; }
     const Vec3i& input(int point) const { return inputs_[point]; }
+    bool is_moved(int point) const { return moved_[point]; }
     double distance(int point, int plane) const {
         const std::array<double, 4>& n = unit_[plane];
         const Vec3d& x = approx_[point];
@@ -65,12 +72,15 @@ public:
     double tolerance() const { return tolerance_; }
 
 private:
+    int find(const HPoint& exact, const Vec3d& approx, std::uint64_t& cell) const;
     int intern(const HPoint& exact, const Vec3d& approx);
+    int append(const HPoint& exact, const Vec3d& approx, std::uint64_t cell);
 
     double tolerance_;  // bounds the error of distance() and of approx(), in grid steps
     PlaneTable planes_;
     std::vector<std::array<double, 4>> unit_;
     std::vector<Vec3i> inputs_;  // input points come first
+    std::vector<char> moved_;    // per input point: not where its grid coordinates are
     std::vector<HPoint> exact_;
     std::vector<Vec3d> approx_;
     std::vector<std::vector<int>> on_;
