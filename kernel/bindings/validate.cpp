@@ -35,7 +35,7 @@ nb::dict validate_arrays(const VertexArray& vertex_array, const TriangleArray& t
     ValidateOptions chosen;
     chosen.bits = option_or(options, "bits", chosen.bits);
     chosen.max_crossings = option_or(options, "max_crossings", chosen.max_crossings);
-    if (chosen.bits < 1 || chosen.bits > kValidationBits)
+    if (chosen.bits < 1 || chosen.bits > validation_bits)
         throw nb::value_error("option bits must be in 1..40");
     Validation v = without_gil(std::move(progress), [&](Progress& p) {
         return validate(vertices, triangles, solid, chosen, p);

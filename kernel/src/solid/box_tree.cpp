@@ -7,7 +7,7 @@
 namespace tetra {
 namespace {
 
-constexpr int kLeafSize = 4;
+constexpr int leaf_size = 4;
 
 Box triangle_box(std::span<const Vec3i> points, const Triangle& t) {
     Box box{points[static_cast<std::size_t>(t[0])], points[static_cast<std::size_t>(t[0])]};
@@ -52,7 +52,7 @@ BoxTree build_box_tree(std::span<const Vec3i> points, std::span<const Triangle> 
     tree.nodes.push_back({join(tree, 0, n), 0, n, -1});
     for (std::size_t i = 0; i < tree.nodes.size(); ++i) {
         const BoxTree::Node node = tree.nodes[i];
-        if (node.end - node.begin <= kLeafSize) continue;
+        if (node.end - node.begin <= leaf_size) continue;
         const std::size_t k = longest_side(node.box);
         const int middle = node.begin + (node.end - node.begin) / 2;
         std::nth_element(tree.order.begin() + node.begin, tree.order.begin() + middle,

@@ -13,7 +13,7 @@ namespace {
 using Signs = std::array<int, 3>;
 
 // A surface can cross itself in n^2 places: after this many times the limit the search ends.
-constexpr std::size_t kEnough = 100;
+constexpr std::size_t enough = 100;
 
 // Where a triangle meets the plane of another: two points on edges `from` (strictly off the
 // plane) -> `to`, or along the edge opposite to its only corner off the plane.
@@ -60,7 +60,7 @@ class Finder {
         for_touching_boxes(tree_, [&](int a, int b) {
             if (++tests % 1024 == 0)
                 progress.poll("validate", std::min(1.0, static_cast<double>(tests) / expected));
-            if (found_.pairs.size() <= kEnough * limit_) test(a, b);
+            if (found_.pairs.size() <= enough * limit_) test(a, b);
         });
         std::sort(found_.pairs.begin(), found_.pairs.end());
         if (found_.pairs.size() > limit_) found_.pairs.resize(limit_);

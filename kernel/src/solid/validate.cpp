@@ -11,7 +11,7 @@
 namespace tetra {
 namespace {
 
-constexpr std::size_t kListed = 100;  // ids in one defect of the raw arrays
+constexpr std::size_t listed_ids = 100;  // ids in one defect of the raw arrays
 
 // Defects that leave no surface to look at.
 std::vector<Defect> find_array_defects(const std::vector<Vec3d>& vertices,
@@ -21,14 +21,14 @@ std::vector<Defect> find_array_defects(const std::vector<Vec3d>& vertices,
     if (triangles.empty())
         return {{"empty", {}, {}, "there are no triangles; check that the file holds a surface"}};
     Defect index{"bad_index", {}, {}, ""}, nonfinite{"nonfinite_coordinate", {}, {}, ""};
-    for (std::size_t v = 0; v < vertices.size() && nonfinite.vertices.size() < kListed; ++v)
+    for (std::size_t v = 0; v < vertices.size() && nonfinite.vertices.size() < listed_ids; ++v)
         for (const double x : vertices[v])
             if (!std::isfinite(x)) {
                 nonfinite.vertices.push_back(static_cast<int>(v));
                 break;
             }
     const auto bad = [&](int v) { return v < 0 || static_cast<std::size_t>(v) >= vertices.size(); };
-    for (std::size_t t = 0; t < triangles.size() && index.triangles.size() < kListed; ++t)
+    for (std::size_t t = 0; t < triangles.size() && index.triangles.size() < listed_ids; ++t)
         if (std::any_of(triangles[t].begin(), triangles[t].end(), bad))
             index.triangles.push_back(static_cast<int>(t));
     if (!solid.empty() && solid.size() != triangles.size())
@@ -135,10 +135,10 @@ bool has_flat_shell(const Shells& shells) {
 // Turns shells by their depth. Turning may join shells at type 2 edges in another way, hence the
 // rounds; crossing shells may never come to rest, and are reported afterwards.
 void orient_shells(Oriented& o, const BoxTree& tree) {
-    constexpr int kRounds = 4;
+    constexpr int rounds = 4;
     o.turned.assign(o.surface.triangles.size(), 0);
     derive(o);
-    for (int round = 0; round < kRounds && !has_flat_shell(o.shells); ++round) {
+    for (int round = 0; round < rounds && !has_flat_shell(o.shells); ++round) {
         o.nesting = nest_shells(o.surface, o.shells, tree);
         bool any = false;
         for (std::size_t t = 0; t < o.surface.triangles.size(); ++t) {

@@ -12,10 +12,10 @@
 namespace tetra {
 
 // Fine enough to stand for the doubles themselves, and the finest with exact orient3d.
-inline constexpr int kValidationBits = 40;
+inline constexpr int validation_bits = 40;
 
 struct ValidateOptions {
-    int bits = kValidationBits;
+    int bits = validation_bits;
     std::size_t max_crossings = 100;  // crossing pairs named
 };
 
