@@ -514,3 +514,22 @@ def test_a_vertex_pushed_through_a_facet_is_caught(seed):
         assert not is_partition(rng, vertices, shape.triangles)
     else:
         assert is_partition(rng, vertices, found["triangles"])
+
+
+def test_many_defects_are_summed_up():
+    rng = np.random.default_rng(0)
+    rows = np.arange(3000, dtype=np.int32).reshape(-1, 3)
+    defects = check(rng.random((3000, 3)), rows)["defects"]
+    assert len(defects) == 100
+    assert "900 more" in defects[-1]["message"]
+
+
+@pytest.mark.parametrize("size", [1e-200, 1e-20, 1.0, 1e20, 1e300])
+@pytest.mark.parametrize("away", [0.0, 1e6])
+def test_size_and_place_do_not_matter(size, away):
+    shape = shapes.cube_with_cavity()
+    vertices = (shape.vertices + away) * size
+    found = check(vertices, shape.triangles)
+    assert found["defects"] == []
+    assert found["counts"]["facets"] == 12
+    assert found["counts"]["notches"] == 12

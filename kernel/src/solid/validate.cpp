@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <string>
 
 #include "tetra/solid/edges.h"
@@ -11,7 +12,7 @@
 namespace tetra {
 namespace {
 
-constexpr std::size_t listed_ids = 100;  // ids in one defect of the raw arrays
+constexpr int most_listed = 100;  // defects of a kind, and ids in one defect of the raw arrays
 
 // Defects that leave no surface to look at.
 std::vector<Defect> find_array_defects(const std::vector<Vec3d>& vertices,
@@ -21,14 +22,16 @@ std::vector<Defect> find_array_defects(const std::vector<Vec3d>& vertices,
     if (triangles.empty())
         return {{"empty", {}, {}, "there are no triangles; check that the file holds a surface"}};
     Defect index{"bad_index", {}, {}, ""}, nonfinite{"nonfinite_coordinate", {}, {}, ""};
-    for (std::size_t v = 0; v < vertices.size() && nonfinite.vertices.size() < listed_ids; ++v)
+    for (std::size_t v = 0;
+         v < vertices.size() && nonfinite.vertices.size() < std::size_t{most_listed}; ++v)
         for (const double x : vertices[v])
             if (!std::isfinite(x)) {
                 nonfinite.vertices.push_back(static_cast<int>(v));
                 break;
             }
     const auto bad = [&](int v) { return v < 0 || static_cast<std::size_t>(v) >= vertices.size(); };
-    for (std::size_t t = 0; t < triangles.size() && index.triangles.size() < listed_ids; ++t)
+    for (std::size_t t = 0;
+         t < triangles.size() && index.triangles.size() < std::size_t{most_listed}; ++t)
         if (std::any_of(triangles[t].begin(), triangles[t].end(), bad))
             index.triangles.push_back(static_cast<int>(t));
     if (!solid.empty() && solid.size() != triangles.size())
@@ -109,6 +112,21 @@ std::vector<Defect> overlap_defects(const GridSolid& s, const Shells& shells, co
                                "; unite or subtract them"});
     }
     return defects;
+}
+
+// Keeps the first `limit` defects of each kind; the last one kept tells how many follow.
+std::vector<Defect> first_of_each_kind(std::vector<Defect> defects, int limit) {
+    std::map<std::string, int> count, seen;
+    for (const Defect& d : defects) ++count[d.kind];
+    std::vector<Defect> kept;
+    for (Defect& d : defects) {
+        const int n = ++seen[d.kind];
+        if (n > limit) continue;
+        if (n == limit && count[d.kind] > limit)
+            d.message += " (and " + std::to_string(count[d.kind] - limit) + " more like this)";
+        kept.push_back(std::move(d));
+    }
+    return kept;
 }
 
 void turn(Triangle& t) { std::swap(t[1], t[2]); }
@@ -198,6 +216,7 @@ Validation validate(const std::vector<Vec3d>& vertices, const std::vector<Triang
     v.defects = find_duplicate_triangles(merged);
     std::vector<Defect> boundary = find_boundary_defects(merged);
     v.defects.insert(v.defects.end(), boundary.begin(), boundary.end());
+    v.defects = first_of_each_kind(std::move(v.defects), most_listed);
     if (!v.defects.empty()) return v;
     Oriented o;
     o.surface = repair_flat_triangles(std::move(merged), &report);
@@ -216,6 +235,7 @@ Validation validate(const std::vector<Vec3d>& vertices, const std::vector<Triang
     std::vector<Defect> crossing = crossing_defects(o.surface, crossings);
     v.defects.insert(v.defects.end(), crossing.begin(), crossing.end());
     if (v.defects.empty() && !solid.empty()) v.defects = overlap_defects(o.surface, o.shells, tree);
+    v.defects = first_of_each_kind(std::move(v.defects), most_listed);
     if (v.defects.empty()) fill(v, o, crossings, report);
     return v;
 }

@@ -1,0 +1,312 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Splits edges at vertices, then forces edges into the faces they lie on by exchanging diagonals.
+#include "tetra/solid/conform_contacts.h"
+
+#include <algorithm>
+#include <deque>
+#include <map>
+#include <utility>
+
+#include "tetra/errors.h"
+#include "tetra/exact/plane.h"
+#include "tetra/exact/predicates.h"
+#include "tetra/solid/box_tree.h"
+
+namespace tetra {
+namespace {
+
+struct VertexOnEdge {
+    int solid, low, high, vertex;
+    friend auto operator<=>(const VertexOnEdge&, const VertexOnEdge&) = default;
+};
+
+// Edge u-w of a triangle runs through the inside of triangle `face`.
+struct EdgeOnFace {
+    int u, w, face;
+    friend auto operator<=>(const EdgeOnFace&, const EdgeOnFace&) = default;
+};
+
+class Conformer {
+public:
+    explicit Conformer(GridSolid&& solid) : s_(std::move(solid)) {}
+
+    GridSolid run() {
+        for (;;) {
+            find_contacts();
+            if (!on_edges_.empty())
+                split_edges();
+            else if (!on_faces_.empty())
+                insert_edges();
+            else
+                return std::move(s_);
+        }
+    }
+
+private:
+    const Vec3i& point(int v) const { return s_.points[static_cast<std::size_t>(v)]; }
+    Triangle& triangle(int t) { return s_.triangles[static_cast<std::size_t>(t)]; }
+    const Triangle& triangle(int t) const { return s_.triangles[static_cast<std::size_t>(t)]; }
+    int solid(int t) const { return s_.solid[static_cast<std::size_t>(t)]; }
+    int vertex(int t, int i) const { return triangle(t)[static_cast<std::size_t>(i % 3)]; }
+    bool has(int t, int v) const {
+        return vertex(t, 0) == v || vertex(t, 1) == v || vertex(t, 2) == v;
+    }
+    int side(int t, int v) const {
+        return has(t, v) ? 0
+                         : orient3d(point(vertex(t, 0)), point(vertex(t, 1)), point(vertex(t, 2)),
+                                    point(v));
+    }
+
+    // Two coordinates in which the triangle is seen counter-clockwise with an area.
+    struct View {
+        int u, v;
+    };
+    View view(int t) const {
+        for (const View w : {View{0, 1}, View{1, 2}, View{2, 0}}) {
+            const int turn = orient2d(point(vertex(t, 0)), point(vertex(t, 1)),
+                                      point(vertex(t, 2)), w.u, w.v);
+            if (turn > 0) return w;
+            if (turn < 0) return {w.v, w.u};
+        }
+        return {0, 1};
+    }
+    int turn(View w, int a, int b, int c) const {
+        return orient2d(point(a), point(b), point(c), w.u, w.v);
+    }
+
+    void find_contacts() {
+        on_edges_.clear();
+        on_faces_.clear();
+        for_touching_boxes(build_box_tree(s_.points, s_.triangles), [&](int a, int b) {
+            if (solid(a) != solid(b)) return;
+            note(a, b);
+            note(b, a);
+        });
+        for (auto unique = [](auto& list) {
+                 std::sort(list.begin(), list.end());
+                 list.erase(std::unique(list.begin(), list.end()), list.end());
+             };
+             true;) {
+            unique(on_edges_);
+            unique(on_faces_);
+            return;
+        }
+    }
+
+    // What of triangle b lies on triangle a.
+    void note(int a, int b) {
+        std::array<bool, 3> on{};
+        int count = 0;
+        for (int i = 0; i < 3; ++i) {
+            on[static_cast<std::size_t>(i)] = side(a, vertex(b, i)) == 0;
+            count += on[static_cast<std::size_t>(i)];
+        }
+        if (count == 0) return;
+        const View w = view(a);
+        for (int i = 0; i < 3; ++i) {
+            if (!on[static_cast<std::size_t>(i)]) continue;
+            note_vertex(a, vertex(b, i), w);
+            if (on[static_cast<std::size_t>((i + 1) % 3)])
+                note_edge(a, vertex(b, i), vertex(b, i + 1), w);
+        }
+    }
+
+    void note_vertex(int a, int v, View w) {
+        if (has(a, v)) return;
+        for (int i = 0; i < 3; ++i) {
+            const int p = vertex(a, i), q = vertex(a, i + 1), r = vertex(a, i + 2);
+            if (turn(w, p, q, v) == 0 && turn(w, q, r, v) > 0 && turn(w, r, p, v) > 0)
+                on_edges_.push_back({solid(a), std::min(p, q), std::max(p, q), v});
+        }
+    }
+
+    // Segment and triangle have inner points in common unless a line of theirs separates them.
+    void note_edge(int a, int u, int v, View w) {
+        if (has(a, u) && has(a, v)) return;
+        int left = 0, right = 0;
+        for (int i = 0; i < 3; ++i) {
+            const int p = vertex(a, i), q = vertex(a, i + 1);
+            if (turn(w, p, q, u) <= 0 && turn(w, p, q, v) <= 0) return;
+            const int s = turn(w, u, v, p);
+            left += s > 0;
+            right += s < 0;
+        }
+        if (left && right) on_faces_.push_back({std::min(u, v), std::max(u, v), a});
+    }
+
+    void append(const Triangle& t, int like) {
+        s_.triangles.push_back(t);
+        s_.triangle_source.push_back(s_.triangle_source[static_cast<std::size_t>(like)]);
+        s_.solid.push_back(solid(like));
+    }
+
+    // One vertex for each edge and one edge for each triangle; the next round finds the rest.
+    void split_edges() {
+        std::map<std::array<int, 3>, int> vertex_of;
+        for (const VertexOnEdge& c : on_edges_)
+            vertex_of.try_emplace({c.solid, c.low, c.high}, c.vertex);
+        // Only edges whose triangles are all free are split, so that both sides stay equal.
+        std::map<std::array<int, 3>, std::vector<std::pair<int, int>>> users;
+        const int count = static_cast<int>(s_.triangles.size());
+        for (int t = 0; t < count; ++t)
+            for (int i = 0; i < 3; ++i) {
+                const auto [low, high] = std::minmax(vertex(t, i), vertex(t, i + 1));
+                const std::array<int, 3> key{solid(t), low, high};
+                if (vertex_of.contains(key)) users[key].push_back({t, i});
+            }
+        std::vector<char> busy(static_cast<std::size_t>(count));
+        for (const auto& [key, list] : users) {
+            const auto taken = [&](const std::pair<int, int>& use) {
+                return busy[static_cast<std::size_t>(use.first)] != 0;
+            };
+            if (std::any_of(list.begin(), list.end(), taken)) continue;
+            const int v = vertex_of.at(key);
+            for (const auto& [t, i] : list) {
+                busy[static_cast<std::size_t>(t)] = 1;
+                const int p = vertex(t, i), q = vertex(t, i + 1), r = vertex(t, i + 2);
+                triangle(t) = {p, v, r};
+                append({v, q, r}, t);
+            }
+        }
+    }
+
+    void insert_edges() {
+        index_edges();
+        std::vector<EdgeOnFace> todo = on_faces_;
+        for (const EdgeOnFace& c : todo) {
+            // Earlier insertions may have changed this face: the next round sees what is left.
+            const View w = view(c.face);
+            on_faces_.clear();
+            if (side(c.face, c.u) != 0 || side(c.face, c.w) != 0) continue;
+            note_edge(c.face, c.u, c.w, w);
+            if (on_faces_.empty()) continue;
+            if (const int inner = inner_end(c, w); inner >= 0)
+                split_face(c.face, inner);
+            else
+                force_edge(c, w);
+        }
+    }
+
+    // An end strictly inside the triangle, or -1.
+    int inner_end(const EdgeOnFace& c, View w) const {
+        for (const int v : {c.u, c.w}) {
+            bool inside = !has(c.face, v);
+            for (int i = 0; i < 3 && inside; ++i)
+                inside = turn(w, vertex(c.face, i), vertex(c.face, i + 1), v) > 0;
+            if (inside) return v;
+        }
+        return -1;
+    }
+
+    void split_face(int t, int v) {
+        const Triangle old = triangle(t);
+        const int first = static_cast<int>(s_.triangles.size());
+        unindex(t);
+        triangle(t) = {old[0], old[1], v};
+        append({old[1], old[2], v}, t);
+        append({old[2], old[0], v}, t);
+        for (const int u : {t, first, first + 1}) index(u);
+    }
+
+    void index_edges() {
+        triangles_at_.clear();
+        for (int t = 0; t < static_cast<int>(s_.triangles.size()); ++t) index(t);
+    }
+    void index(int t) {
+        for (int i = 0; i < 3; ++i) triangles_at_[{vertex(t, i), vertex(t, i + 1)}].push_back(t);
+    }
+    void unindex(int t) {
+        for (int i = 0; i < 3; ++i)
+            std::erase(triangles_at_[{vertex(t, i), vertex(t, i + 1)}], t);
+    }
+
+    // The triangle of the same solid, plane and orientation with half-edge p -> q, or -1.
+    int coplanar_at(int p, int q, int like) const {
+        const auto found = triangles_at_.find({p, q});
+        if (found == triangles_at_.end()) return -1;
+        const Plane plane = plane_of(like);
+        for (const int t : found->second)
+            if (solid(t) == solid(like) && plane_of(t) == plane) return t;
+        return -1;
+    }
+    Plane plane_of(int t) const {
+        return plane_through(point(vertex(t, 0)), point(vertex(t, 1)), point(vertex(t, 2)));
+    }
+
+    bool crosses(View w, int a, int b, int u, int v) const {
+        return turn(w, u, v, a) * turn(w, u, v, b) < 0 && turn(w, a, b, u) * turn(w, a, b, v) < 0;
+    }
+
+    // Sloan's insertion: diagonals that cross u-w are exchanged where their quad is convex.
+    void force_edge(const EdgeOnFace& c, View w) {
+        std::deque<std::pair<int, int>> crossed;
+        for (int i = 0; i < 3; ++i) {
+            const int a = vertex(c.face, i), b = vertex(c.face, i + 1);
+            if (crosses(w, a, b, c.u, c.w)) crossed.push_back({a, b});
+        }
+        std::size_t idle = 0;
+        while (!crossed.empty() && idle <= crossed.size()) {
+            const auto [a, b] = crossed.front();
+            crossed.pop_front();
+            const int t = coplanar_at(a, b, c.face), o = coplanar_at(b, a, c.face);
+            if (t < 0 || o < 0) refuse(a, b, c);
+            const int p = opposite(t, a, b), q = opposite(o, b, a);
+            if (turn(w, q, b, p) <= 0 || turn(w, p, a, q) <= 0) {
+                // Not convex at an end of the diagonal: exchange another one first.
+                add_crossed(w, c, p, a, crossed);
+                add_crossed(w, c, q, b, crossed);
+                add_crossed(w, c, b, p, crossed);
+                add_crossed(w, c, a, q, crossed);
+                crossed.push_back({a, b});
+                ++idle;
+                continue;
+            }
+            idle = 0;
+            unindex(t);
+            unindex(o);
+            triangle(t) = {p, a, q};
+            triangle(o) = {q, b, p};
+            index(t);
+            index(o);
+            return;  // one exchange at a time; the next round goes on
+        }
+    }
+
+    int opposite(int t, int a, int b) const {
+        for (const int v : triangle(t))
+            if (v != a && v != b) return v;
+        return -1;
+    }
+
+    void add_crossed(View w, const EdgeOnFace& c, int a, int b,
+                     std::deque<std::pair<int, int>>& crossed) const {
+        if (!crosses(w, a, b, c.u, c.w)) return;
+        for (const auto& [p, q] : crossed)
+            if ((p == a && q == b) || (p == b && q == a)) return;
+        crossed.push_back({a, b});
+    }
+
+    [[noreturn]] void refuse(int a, int b, const EdgeOnFace& c) const {
+        const auto caller = [&](int v) { return s_.point_source[static_cast<std::size_t>(v)]; };
+        Defect d;
+        d.kind = "edge_contact";
+        for (const int v : {a, b, c.u, c.w}) d.vertices.push_back(caller(v));
+        d.triangles = {s_.triangle_source[static_cast<std::size_t>(c.face)]};
+        d.message = "edge " + std::to_string(caller(a)) + "-" + std::to_string(caller(b)) +
+                    " and edge " + std::to_string(caller(c.u)) + "-" +
+                    std::to_string(caller(c.w)) +
+                    " cross without a common vertex; divide both where they meet";
+        throw InvalidSolid({d});
+    }
+
+    GridSolid s_;
+    std::vector<VertexOnEdge> on_edges_;
+    std::vector<EdgeOnFace> on_faces_;
+    std::map<std::pair<int, int>, std::vector<int>> triangles_at_;
+};
+
+}  // namespace
+
+GridSolid conform_contacts(GridSolid surface) { return Conformer(std::move(surface)).run(); }
+
+}  // namespace tetra
