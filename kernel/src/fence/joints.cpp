@@ -33,6 +33,7 @@ class Joiner {
     struct Candidate {
         int surface;
         Height height;
+        int root;  // equal for surfaces that are known to meet over the point
         int rank;
     };
 
@@ -46,6 +47,7 @@ class Joiner {
     void group() {
         first_vertex_ = static_cast<int>(plan_.surfaces.size());
         vertex_slot_.assign(plan_.point_of.size(), -1);
+        parent_.assign(static_cast<std::size_t>(first_vertex_) + plan_.point_of.size(), -1);
         const int n = plan_.points.size();
         std::vector<int> key;
         for (const WallPoint& w : walls_.points) key.push_back(w.point);
@@ -107,13 +109,16 @@ class Joiner {
     void rank_candidates() {
         const PlanPoint& p = plan_.points[point_];
         candidates_.clear();
-        for (const int id : ids_) candidates_.push_back({id, height(surface(id), p), 0});
+        join_incident();
+        for (const int id : ids_) candidates_.push_back({id, height(surface(id), p), root(id), 0});
+        reset_roots();
         const auto compare = [&](const Candidate& s, const Candidate& t) {
+            if (s.root == t.root) return 0;
             return compare_heights(surface(s.surface), s.height, surface(t.surface), t.height, p);
         };
         std::sort(candidates_.begin(), candidates_.end(),
                   [&](const Candidate& s, const Candidate& t) {
-                      const int order = s.surface == t.surface ? 0 : compare(s, t);
+                      const int order = compare(s, t);
                       return order != 0 ? order < 0 : s.surface < t.surface;
                   });
         rank_.assign(ids_.size(), 0);
@@ -124,6 +129,42 @@ class Joiner {
             rank_[slot(candidates_[i].surface)] = rank;
         }
         ranks_ = rank + 1;
+    }
+
+    // Edges through the point with the facets and input points on them, without arithmetic.
+    void join_incident() {
+        for (const int k : edges_at_[point_]) {
+            const int e = at(walls_.edge_at, k);
+            const SharpEdge& edge = at(plan_.edges, e);
+            if (edge.line < 0) continue;
+            const int id = plan_.edge_surface_id(e);
+            for (const int f : plan_.edge_facets[e])
+                if (at(plan_.facets, f).side != 0) unite(id, f);
+            for (const int v : {edge.u, edge.v})
+                if (at(plan_.point_of, v) == point_) unite(id, vertex_id(v));
+        }
+    }
+
+    int root(int id) {
+        if (at(parent_, id) < 0) return id;
+        while (at(parent_, id) != id) id = at(parent_, id) = at(parent_, at(parent_, id));
+        return id;
+    }
+
+    void unite(int i, int j) {
+        for (const int k : {i, j})
+            if (at(parent_, k) < 0) {
+                at(parent_, k) = k;
+                joined_.push_back(k);
+            }
+        i = root(i);
+        j = root(j);
+        at(parent_, std::max(i, j)) = std::min(i, j);
+    }
+
+    void reset_roots() {
+        for (const int k : joined_) at(parent_, k) = -1;
+        joined_.clear();
     }
 
     std::size_t slot(int id) const {
@@ -279,6 +320,7 @@ class Joiner {
 
     int point_ = -1, ranks_ = 0;
     std::vector<int> ids_, rank_, vertex_slot_, mark_of_rank_;
+    std::vector<int> parent_, joined_;  // sets of surfaces that meet, while a point is ranked
     std::vector<Surface> vertex_surface_;
     std::vector<Candidate> candidates_;
     std::vector<char> covered_, kept_, used_, used_id_;

@@ -30,15 +30,19 @@ std::vector<Box2> boxes_of(const Plan& plan, const std::vector<int>& triangles) 
     return boxes;
 }
 
-// Is the place left of u -> v? The place is p + e (dx, dy) + e^2 (nx, ny), e infinitely small.
-bool left_of(const Vec3i& u, const Vec3i& v, const Vec3i& p, const Line& line, std::int64_t nx,
-             std::int64_t ny) {
+// Sides of u -> v on which two places lie, +1 = left: p + e (dx, dy) -+ e^2 (-dy, dx) with e
+// infinitely small, right and left of the line.
+struct Sides {
+    int right, left;
+};
+Sides sides_of(const Vec3i& u, const Vec3i& v, const Vec3i& p, const Line& line) {
+    const auto both = [](std::int64_t s) { return s > 0 ? Sides{1, 1} : Sides{-1, -1}; };
     const std::int64_t ex = v[0] - u[0], ey = v[1] - u[1];
     const std::int64_t s = ex * (p[1] - u[1]) - ey * (p[0] - u[0]);
-    if (s != 0) return s > 0;
+    if (s != 0) return both(s);
     const std::int64_t along = ex * line.dy - ey * line.dx;
-    if (along != 0) return along > 0;
-    return ex * ny - ey * nx > 0;
+    if (along != 0) return both(along);
+    return ex * line.dx + ey * line.dy > 0 ? Sides{-1, 1} : Sides{1, -1};
 }
 
 }  // namespace
@@ -46,24 +50,25 @@ bool left_of(const Vec3i& u, const Vec3i& v, const Vec3i& p, const Line& line, s
 Stabber::Stabber(const Plan& plan)
     : plan_(plan), triangles_(triangles_seen_from_above(plan)), tree_(boxes_of(plan, triangles_)) {}
 
-void Stabber::facets_beside(const Line& line, bool left, const Vec3i& point,
-                            std::vector<int>& out) const {
-    out.clear();
-    const std::int64_t nx = left ? -line.dy : line.dy, ny = left ? line.dx : -line.dx;
+void Stabber::facets_beside(const Line& line, const Vec3i& point, std::vector<int>& right,
+                            std::vector<int>& left) const {
+    right.clear();
+    left.clear();
     const Box2 place{point[0], point[1], point[0], point[1]};
-    tree_.query([&](const Box2& box) { return box.meets(place); },
-                [&](int item) {
-                    const int t = at(triangles_, item);
-                    Triangle tri = at(plan_.input->triangles, t);
-                    const int facet = at(plan_.facet_of, t);
-                    if (at(plan_.facets, facet).side < 0) std::swap(tri[1], tri[2]);
-                    for (int k = 0; k < 3; ++k)
-                        if (!left_of(plan_.at(at(tri, k)), plan_.at(at(tri, (k + 1) % 3)), point,
-                                     line, nx, ny))
-                            return;
-                    out.push_back(facet);
-                });
-    std::sort(out.begin(), out.end());
+    const auto visit = [&](int item) {
+        const int t = at(triangles_, item);
+        const Triangle& tri = at(plan_.input->triangles, t);
+        const int facet = at(plan_.facet_of, t), up = at(plan_.facets, facet).side;
+        bool in_right = true, in_left = true;
+        for (std::size_t k = 0; k < 3 && (in_right || in_left); ++k) {
+            const Sides s = sides_of(plan_.at(tri[k]), plan_.at(tri[(k + 1) % 3]), point, line);
+            in_right = in_right && s.right == up;
+            in_left = in_left && s.left == up;
+        }
+        if (in_right) right.push_back(facet);
+        if (in_left) left.push_back(facet);
+    };
+    tree_.query([&](const Box2& box) { return box.meets(place); }, visit);
 }
 
 void Stack::toggle(int facet) {
@@ -77,18 +82,22 @@ void Stack::toggle(int facet) {
 // Sign of s against t in the strip; 0 when both lie in one plane.
 int Stack::compare(const Entry& s, const Entry& t, const Line& line, int from, int to) const {
     const Surface &a = at(plan_.surfaces, s.facet), &b = at(plan_.surfaces, t.facet);
-    int order = compare_heights(a, s.from, b, t.from, plan_.points[from]);
-    if (order == 0) order = compare_heights(a, s.to, b, t.to, plan_.points[to]);
+    int order = 0;
+    if (s.edge < 0 || s.edge != t.edge) {
+        order = compare_heights(a, s.from, b, t.from, plan_.points[from]);
+        if (order == 0) order = compare_heights(a, s.to, b, t.to, plan_.points[to]);
+    }
     if (order == 0)
         order = compare_slopes(a, b, left_ ? -line.dy : line.dy, left_ ? line.dx : -line.dx);
     return order;
 }
 
-void Stack::sort(const Line& line, int from, int to) {
+void Stack::sort(const Line& line, int from, int to, const std::vector<int>& edge_of) {
     entries_.clear();
     for (const int f : facets_) {
         const Surface& s = at(plan_.surfaces, f);
-        entries_.push_back({f, height(s, plan_.points[from]), height(s, plan_.points[to])});
+        entries_.push_back(
+            {f, at(edge_of, f), height(s, plan_.points[from]), height(s, plan_.points[to])});
     }
     std::sort(entries_.begin(), entries_.end(), [&](const Entry& s, const Entry& t) {
         int order = compare(s, t, line, from, to);

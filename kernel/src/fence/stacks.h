@@ -12,9 +12,9 @@ class Stabber {
   public:
     explicit Stabber(const Plan& plan);
 
-    // Non-vertical facets over the point moved a little along the line and less to one side.
-    void facets_beside(const Line& line, bool left, const Vec3i& point,
-                       std::vector<int>& out) const;
+    // Non-vertical facets over the point moved a little along the line and less to either side.
+    void facets_beside(const Line& line, const Vec3i& point, std::vector<int>& right,
+                       std::vector<int>& left) const;
 
   private:
     const Plan& plan_;
@@ -33,13 +33,15 @@ class Stack {
     int ceiling(int pair) const { return at(facets_, 2 * pair + 1); }
 
     void toggle(int facet);
-    // Sorts bottom up for the strip between two plan points of the line.
+    // Sorts bottom up for the strip between two plan points of the line. `edge_of` names for each
+    // facet an edge that bounds it over this stretch, or is negative.
     // \throw InvalidSolid when floors and ceilings do not alternate.
-    void sort(const Line& line, int from, int to);
+    void sort(const Line& line, int from, int to, const std::vector<int>& edge_of);
 
   private:
     struct Entry {
         int facet;
+        int edge;
         Height from, to;
     };
     int compare(const Entry& s, const Entry& t, const Line& line, int from, int to) const;

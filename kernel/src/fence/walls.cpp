@@ -35,6 +35,7 @@ class Sweep {
           stabber_(plan),
           obstacles_(boxes_of_obstacles(plan)),
           stacks_{Stack(plan, false), Stack(plan, true)},
+          edge_of_(plan.facets.size(), -1),
           ceiling_of_(plan.facets.size(), -1),
           ceiling_stamp_(plan.facets.size(), -1) {
         walls_.chains.offset.push_back(0);  // chain 0 is empty
@@ -83,8 +84,7 @@ class Sweep {
         const Line& line = at(plan_.lines, l);
         line_ = l;
         collect_events(line, own, plan_.at(first), plan_.at(last));
-        for (int k = 0; k < 2; ++k)
-            stabber_.facets_beside(line, k == 1, plan_.at(first), stacks_[k].facets());
+        stabber_.facets_beside(line, plan_.at(first), stacks_[0].facets(), stacks_[1].facets());
         open_.clear();
         own_active_.clear();
         std::size_t next_own = 0;
@@ -104,8 +104,7 @@ class Sweep {
                 close_walls(point);
                 return;
             }
-            for (int k = 0; k < 2; ++k)
-                if (dirty[k]) stacks_[k].sort(line, point, events_[i].point);
+            sort_stacks(line, point, events_[i].point, dirty);
             for (const int e : own_active_) note_edge(point, e);
             if (dirty[0] || dirty[1] || own_changed)
                 build_walls(point, events_[i].point);
@@ -113,6 +112,20 @@ class Sweep {
                 continue_walls(point);
             dirty[0] = dirty[1] = false;
         }
+    }
+
+    void sort_stacks(const Line& line, int from, int to, const bool (&dirty)[2]) {
+        if (!dirty[0] && !dirty[1]) return;
+        name_edges(true);
+        for (int k = 0; k < 2; ++k)
+            if (dirty[k]) stacks_[k].sort(line, from, to, edge_of_);
+        name_edges(false);
+    }
+
+    // Facets that hang on an edge of the line have its height over it: no arithmetic is needed.
+    void name_edges(bool on) {
+        for (const int e : own_active_)
+            for (const int f : plan_.edge_facets[e]) at(edge_of_, f) = on ? e : -1;
     }
 
     int start_of(int edge) const { return at(plan_.point_of, at(plan_.edges, edge).u); }
@@ -260,7 +273,8 @@ class Sweep {
     int chain_of(const Run& run, int from, int to) {
         chain_.clear();
         for (const int e : own_active_)
-            if (above(plan_.edge_surface_id(e), run.floor, from, to) &&
+            if (!bounds(e, run.floor) && !bounds(e, run.ceiling) &&
+                above(plan_.edge_surface_id(e), run.floor, from, to) &&
                 above(run.ceiling, plan_.edge_surface_id(e), from, to))
                 chain_.push_back(e);
         if (chain_.empty()) return 0;
@@ -275,6 +289,10 @@ class Sweep {
         chains.items.insert(chains.items.end(), chain_.begin(), chain_.end());
         chains.offset.push_back(static_cast<int>(chains.items.size()));
         return static_cast<int>(chains.offset.size()) - 2;
+    }
+
+    bool bounds(int edge, int facet) const {
+        return std::ranges::count(plan_.edge_facets[edge], facet) > 0;
     }
 
     // Is s above t between the two points, touching allowed at one of them?
@@ -308,6 +326,7 @@ class Sweep {
     std::vector<Event> events_;
     std::vector<int> own_active_, chain_;
     std::vector<OpenWall> open_, wanted_;
+    std::vector<int> edge_of_;  // per facet, while the stacks are sorted
     std::vector<int> ceiling_of_, ceiling_stamp_;
     int stamp_ = 0;
     int line_ = -1;
