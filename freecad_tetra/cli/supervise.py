@@ -84,6 +84,10 @@ def _tell(writing: int, stage: str) -> None:
     os.write(writing, stage.encode() + b"\n")
 
 
+class _Killed(Exception):
+    """The child did not stop in time."""
+
+
 class _Watch:
     """Signal handlers of the parent."""
 
@@ -98,7 +102,9 @@ class _Watch:
             signal.setitimer(signal.ITIMER_REAL, _PATIENCE)
 
     def kill(self, number: int, frame: FrameType | None) -> None:
+        """End the child; the system may need a while to clear its memory, nobody waits for that."""
         self._send(signal.SIGKILL)
+        raise _Killed
 
     def _send(self, number: int) -> None:
         with contextlib.suppress(ProcessLookupError):
@@ -113,19 +119,23 @@ def _watch(arguments: argparse.Namespace, child: int, reading: int) -> int:
         signal.SIGTERM: signal.signal(signal.SIGTERM, watch.stop),
         signal.SIGALRM: signal.signal(signal.SIGALRM, watch.kill),
     }
+    status = None
     try:
-        _, status = os.waitpid(child, 0)
-    finally:
-        signal.setitimer(signal.ITIMER_REAL, 0)
-        for number, handler in old.items():
-            signal.signal(number, handler)
-    stages = _drain(reading)
-    if os.WIFEXITED(status):
+        try:
+            _, status = os.waitpid(child, 0)
+        finally:
+            signal.setitimer(signal.ITIMER_REAL, 0)
+    except _Killed:
+        pass
+    for number, handler in old.items():
+        signal.signal(number, handler)
+    if status is not None and os.WIFEXITED(status):
         return os.WEXITSTATUS(status)
     _remove_parts(arguments, child)
-    if watch.asked:
+    if status is None or watch.asked:
         print("cancelled", file=sys.stderr)
         return CANCELLED
+    stages = _drain(reading)
     return _crashed(os.WTERMSIG(status), stages[-1] if stages else "start")
 
 

@@ -15,9 +15,9 @@ from freecad_tetra.io.weld import compacted
 
 _RECORD = np.dtype([("normal", "<f4", 3), ("corners", "<f4", (3, 3)), ("attribute", "<u2")])
 _NAME_LINE = re.compile(rb"^[ \t]*(?:end)?solid\b[^\n]*$", re.MULTILINE | re.IGNORECASE)
-_WORDS = (b"facet", b"normal", b"outer", b"loop", b"vertex", b"endloop", b"endfacet")
-_PER_FACET = {b"facet": 1, b"normal": 1, b"outer": 1, b"loop": 1, b"vertex": 3,
-              b"endloop": 1, b"endfacet": 1}  # fmt: skip
+# Longer words first, so that what remains of a file is its numbers.
+_WORDS = ((b"endfacet", 1), (b"endloop", 1), (b"facet", 1), (b"normal", 1), (b"outer", 1),
+          (b"loop", 1), (b"vertex", 3))  # fmt: skip
 
 
 def parse(data: bytes) -> Mesh:
@@ -40,11 +40,12 @@ def _ascii(data: bytes) -> Mesh:
     if not re.search(rb"\bendsolid\b[^\n]*\s*\Z", data, re.IGNORECASE):
         raise BadFile("it is truncated (endsolid is missing)")
     body = _NAME_LINE.sub(b"", data.replace(b"\r", b"\n")).lower()
-    count = len(re.findall(rb"\bfacet\b", body))
-    for word in sorted(_WORDS, key=len, reverse=True):
-        body, found = re.subn(rb"(?<!\S)" + word + rb"(?!\S)", b" ", body)
-        if found != count * _PER_FACET[word]:
+    count = body.count(b"endfacet")
+    for word, per_facet in _WORDS:
+        found = body.count(word)
+        if found != count * per_facet:
             raise BadFile(f"the word {word.decode()} occurs {found} times in {count} facets")
+        body = body.replace(word, b" ")
     values = numbers(body)
     if len(values) != 12 * count:
         raise BadFile(f"{count} facets need {12 * count} numbers, there are {len(values)}")

@@ -3,6 +3,7 @@
 
 from __future__ import annotations
 
+import faulthandler
 import json
 import os
 import pty
@@ -136,12 +137,11 @@ def defective() -> dict[str, tuple[np.ndarray, np.ndarray]]:
 
 
 @pytest.mark.parametrize("name", sorted(defective()))
-@pytest.mark.parametrize("command", ["cells", "info"])
-def test_invalid_solids(tmp_path: Path, name: str, command: str) -> None:
+def test_invalid_solids(tmp_path: Path, capsys: pytest.CaptureFixture[str], name: str) -> None:
     source = off(tmp_path, *defective()[name])
     out, report = tmp_path / "out.obj", tmp_path / "report.json"
-    words = ["-o", out] if command == "cells" else []
-    done = run(command, source, "--report", report, *words)
+    words = ["cells", str(source), "-o", str(out), "--report", str(report)]
+    done = run(*words)
     assert done.returncode == 3, done.stderr
     found = json.loads(report.read_text())
     assert found["verdict"] == "invalid" and found["exit_code"] == 3 and found["defects"]
@@ -151,6 +151,12 @@ def test_invalid_solids(tmp_path: Path, name: str, command: str) -> None:
     assert not out.exists()
     if name not in ("flat", "no_triangle", "nan", "infinite"):
         assert any(d["triangles"] for d in found["defects"])
+    for command in (
+        ["info", str(source)],
+        ["tets", str(source), "-o", str(out.with_suffix(".vtu"))],
+    ):
+        assert commands.run(arguments.parse(command)) == 3
+        assert capsys.readouterr().err == done.stderr
 
 
 def test_an_inside_out_solid_is_turned(tmp_path: Path) -> None:
@@ -167,16 +173,18 @@ def test_an_inside_out_solid_is_turned(tmp_path: Path) -> None:
 @pytest.mark.parametrize(
     "suffix", [".stl", ".obj", ".off", ".ply", ".step", ".brep", ".iges", ".fcstd"]
 )
-@pytest.mark.parametrize("content", [None, b"", b"\x00\xff\x13garbage" * 50, b"solid x\n"])
-def test_unreadable_files(tmp_path: Path, suffix: str, content: bytes | None) -> None:
+def test_unreadable_files(tmp_path: Path, capsys: pytest.CaptureFixture[str], suffix: str) -> None:
     source, out, report = tmp_path / f"in{suffix}", tmp_path / "out.obj", tmp_path / "r.json"
-    if content is not None:
-        source.write_bytes(content)
-    done = run("cells", source, "-o", out, "--report", report)
-    assert done.returncode == 4, done.stderr
-    assert len(done.stderr.splitlines()) == 1 and str(source) in done.stderr
-    assert not out.exists()
-    assert json.loads(report.read_text())["exit_code"] == 4
+    words = ["cells", str(source), "-o", str(out), "--report", str(report)]
+    for content in (None, b"", b"solid x\n", b"\x00\xff\x13garbage" * 50):
+        if content is not None:
+            source.write_bytes(content)
+        assert commands.run(arguments.parse(words)) == 4
+        stderr = capsys.readouterr().err
+        assert len(stderr.splitlines()) == 1 and str(source) in stderr
+        assert not out.exists()
+        assert json.loads(report.read_text())["exit_code"] == 4
+    assert run(*words).returncode == 4
 
 
 @pytest.mark.parametrize(
@@ -196,9 +204,14 @@ def test_unreadable_files(tmp_path: Path, suffix: str, content: bytes | None) ->
         ["tets", "a.off", "-o", "b.vtu", "--order", "3"],
     ],
 )
-def test_wrong_usage(words: list[str]) -> None:
-    done = run(*words)
-    assert done.returncode == 2 and "usage" in done.stderr
+def test_wrong_usage(capsys: pytest.CaptureFixture[str], words: list[str]) -> None:
+    with pytest.raises(SystemExit) as caught:
+        arguments.parse(words)
+    assert caught.value.code == 2 and "usage" in capsys.readouterr().err
+
+
+def test_wrong_usage_of_the_program() -> None:
+    assert run("unknown").returncode == 2
 
 
 def test_help_and_version() -> None:
@@ -242,8 +255,9 @@ def interrupted(command: list[object], after: float) -> tuple[int, float, str]:
     assert started.poll() is None, "it was to be interrupted while at work"
     asked = time.monotonic()
     started.send_signal(signal.SIGINT)
-    _, stderr = started.communicate(timeout=20)
-    return started.returncode, time.monotonic() - asked, stderr
+    code = started.wait(timeout=20)
+    seconds = time.monotonic() - asked
+    return code, seconds, started.communicate(timeout=60)[1]
 
 
 def test_ctrl_c_in_the_kernel(tmp_path: Path) -> None:
@@ -301,6 +315,7 @@ def test_a_crash_becomes_an_exit_code(
     out = tmp_path / "out.obj"
 
     def crash(given: object, told: object) -> int:
+        faulthandler.disable()
         told(stage)  # type: ignore[operator]
         export.temporary_name(out, os.getpid()).write_text("half")
         os.kill(os.getpid(), signal.SIGSEGV)
