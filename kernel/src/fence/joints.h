@@ -2,14 +2,9 @@
 // Where walls are split, and the marks on the vertical line of each plan point (rules R7 to R9).
 #pragma once
 
-#include "walls.h"
+#include "flat_points.h"
 
 namespace tetra::fence {
-
-// A flat input point strictly inside the base region of a cell.
-struct InnerPoint {
-    int floor = -1, ceiling = -1, point = -1;
-};
 
 // A point of the result: the place over `point` where `surface` (an id of Plan) has its height.
 struct Mark {
@@ -28,8 +23,6 @@ struct Joints {
 
     int mark_of(int point, int surface) const;
 };
-
-std::vector<InnerPoint> locate_flat_points(const Plan& plan, const Walls& walls);
 
 // Sets `active` of wall points that must split their wall, and collects the marks.
 Joints join_walls(const Plan& plan, Walls& walls, const std::vector<InnerPoint>& inner,
