@@ -25,8 +25,10 @@ int imperfection(const SolidTets& tets) {
     return tets.report.restore.vertices_on_grid + tets.report.restore.steiner_off_plane;
 }
 
-// How many imperfect meshes are made before the best of them is taken.
-constexpr int kMostImperfect = 6;
+// How many imperfect meshes are made before the best of them is taken: it is luck, which is cheap
+// for small solids.
+int most_imperfect(const GridSolid& solid) { return solid.triangles.size() < 10000 ? 20 : 6; }
+constexpr int kOtherSeeds = 10;
 
 class SolidWorker {
   public:
@@ -88,7 +90,7 @@ class SolidWorker {
                                           " points could not be restored");
             }
             if (!best_ || score < imperfection(*best_)) best_ = std::move(result);
-            return score == 0 || imperfect_ >= kMostImperfect;
+            return score == 0 || imperfect_ >= most_imperfect(input_.grid);
         } catch (const VerificationFailed& e) {
             note_failure(a, e.what());
         } catch (const InvalidSolid& e) {
@@ -120,6 +122,9 @@ class SolidWorker {
         if (consumed_ || report_.pulled != "none") list.push_back({0, PullPolicy::off, level, 0});
         for (std::size_t f = 1; f < frames_.size(); ++f)
             list.push_back({f, options_.pull_off, level, 0});
+        if (level != CompactLevel::none)
+            for (int seed = 3; seed <= kOtherSeeds; ++seed)
+                list.push_back({0, options_.pull_off, level, seed});
         if (level != CompactLevel::none)
             for (std::size_t f = 0; f < frames_.size(); ++f)
                 list.push_back({f, PullPolicy::off, CompactLevel::none, 0});
