@@ -69,20 +69,34 @@ int count_crossed(const EdgeEnds& ends, const std::array<double, 4>& n, double r
     return crossed;
 }
 
-// The first of the candidates that cross fewest edges; `clear` gets all that cross none, sorted.
+// The first of the candidates that cross fewest edges. Those whose known bound is no better than
+// the best so far are not counted; the piece keeps what was learnt.
 int fewest_crossed(const PointTable& points, const std::vector<Candidate>& list,
-                   const EdgeEnds& ends, double reach, std::vector<int>& clear) {
-    clear.clear();
+                   const EdgeEnds& ends, double reach, Piece& piece, std::vector<int>& bound) {
+    bound.resize(static_cast<std::size_t>(points.planes()), 0);
+    for (const auto& [plane, least] : piece.crossed_at_least) bound[plane] = least;
+    piece.clear_planes.clear();
     int best = -1, fewest = static_cast<int>(ends.size) + 1;
-    for (const Candidate& c : list) {
-        const int limit = std::max(fewest, 1);
-        const int crossed = count_crossed(ends, points.unit_plane(c.plane), reach, limit);
-        if (crossed == 0) clear.push_back(c.plane);
-        if (crossed >= fewest) continue;
-        best = c.plane;
+    const auto count = [&](int plane) {
+        // Counting beyond what decides here pays off as a bound for the parts.
+        const int limit = std::max(fewest, 1) + static_cast<int>(ends.size / 8);
+        const int crossed = count_crossed(ends, points.unit_plane(plane), reach, limit);
+        bound[plane] = std::max(bound[plane], crossed);
+        if (crossed == 0) piece.clear_planes.push_back(plane);
+        if (crossed >= fewest) return;
+        best = plane;
         fewest = crossed;
-    }
-    std::sort(clear.begin(), clear.end());
+    };
+    const Candidate* hopeful = &list.front();
+    for (const Candidate& c : list)
+        if (bound[c.plane] < bound[hopeful->plane]) hopeful = &c;
+    count(hopeful->plane);
+    for (const Candidate& c : list)
+        if (&c != hopeful && bound[c.plane] < std::max(fewest, 1)) count(c.plane);
+    piece.crossed_at_least.clear();
+    for (const Candidate& c : list) piece.crossed_at_least.push_back({c.plane, bound[c.plane]});
+    for (const Candidate& c : list) bound[c.plane] = 0;
+    std::sort(piece.clear_planes.begin(), piece.clear_planes.end());
     return best;
 }
 
@@ -155,6 +169,7 @@ int choose_plane(PointTable& points, const HalfEdges& edges, Piece& piece,
         if (lowest < 0 || n < lowest) lowest = n;
     }
     work.plane_count.resize(static_cast<std::size_t>(points.planes()), 0);
+    piece.notch_edges = static_cast<int>(planes.size());
     const std::vector<Candidate> list = candidates_of(planes, excluded, work.plane_count);
     if (list.empty()) return -1;
     if (rule == Rule::random) return list[next_random(state) % list.size()].plane;
@@ -166,7 +181,17 @@ int choose_plane(PointTable& points, const HalfEdges& edges, Piece& piece,
     ends.reserve(carried.size());
     for (const int h : carried)
         ends.add(points.approx(edges[h].org), points.approx(edges.dest(h)));
-    return fewest_crossed(points, list, ends, reach, piece.clear_planes);
+    return fewest_crossed(points, list, ends, reach, piece, work.plane_bound);
+}
+
+void inherit_bounds(const Piece& parent, const HalfEdges& edges, int split, Piece& part) {
+    part.clear_planes = parent.clear_planes;
+    int here = 0;
+    for (const int h : part.edges) here += edges[h].notch >= 0 && h < edges[h].twin;
+    // Every edge that is not in the part as it was may have been crossed.
+    const int lost = parent.notch_edges - here + split;
+    for (const auto& [plane, least] : parent.crossed_at_least)
+        if (least > lost) part.crossed_at_least.push_back({plane, least - lost});
 }
 
 }  // namespace tetra::notch

@@ -22,6 +22,9 @@ int choose_plane(PointTable& points, const HalfEdges& edges, Piece& piece,
                  const std::vector<Notch>& notches, Rule rule, double reach,
                  const std::vector<int>& excluded, std::uint64_t& state, Workspace& work);
 
+// Gives a part what is known of the piece it came from; `split` notch edges were cut in two.
+void inherit_bounds(const Piece& parent, const HalfEdges& edges, int split, Piece& part);
+
 // A splitmix64 step.
 std::uint64_t next_random(std::uint64_t& state);
 

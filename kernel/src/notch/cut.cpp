@@ -35,6 +35,7 @@ public:
           work_(work) {}
 
     std::vector<Piece> run() {
+        work_.notches_split = 0;
         cuts_.resize(section_.segments.size());
         split_crossings();
         insert_chords();
@@ -64,6 +65,7 @@ private:
         for (Crossing& c : crossings_) {
             if (c.out >= 0) continue;
             const int h = c.half_edge, t = edges_[h].twin;
+            work_.notches_split += edges_[h].notch >= 0;
             const int h2 = edges_.split(h, c.point);
             const int t2 = edges_[h].twin;
             piece_.edges.push_back(h2);

@@ -110,13 +110,16 @@ private:
     }
 
     void cut(Piece&& piece, const Section& section, std::vector<Piece>& open) {
-        const std::vector<int> clear = std::move(piece.clear_planes);
+        Piece known;
+        known.clear_planes = std::move(piece.clear_planes);
+        known.crossed_at_least = std::move(piece.crossed_at_least);
+        known.notch_edges = piece.notch_edges;
         std::vector<Piece> parts =
             cut_piece(out_.points, out_.edges, std::move(piece), section, work_);
         ++out_.cuts;
         out_.splices += parts.size() == 1;
         for (Piece& p : parts) {
-            p.clear_planes = clear;
+            inherit_bounds(known, out_.edges, work_.notches_split, p);
             open.push_back(std::move(p));
         }
     }

@@ -21,6 +21,11 @@ struct Group {
     std::vector<int> vertices;
 };
 
+// What rules most groups out, apart from the rest of them for the cache's sake.
+struct Probe {
+    Vec3d normal, vertex;
+};
+
 Vec3d as_doubles(const Vec3i& p) {
     return {static_cast<double>(p[0]), static_cast<double>(p[1]), static_cast<double>(p[2])};
 }
@@ -102,6 +107,9 @@ private:
         std::stable_sort(order.begin(), order.end(),
                          [&](int a, int b) { return groups_[a].area > groups_[b].area; });
         taken_.assign(groups_.size(), 0);
+        for (const Group& g : groups_)
+            probes_.push_back({{g.unit[0], g.unit[1], g.unit[2]},
+                               as_doubles(solid_.points[g.vertices.front()])});
         for (const int seed : order) {
             if (taken_[seed] || is_demoted(groups_[seed])) continue;
             grow(seed, order);
@@ -136,11 +144,15 @@ private:
     std::vector<int> members_near(const Unit& unit, int seed, const std::vector<int>& order) const {
         std::vector<int> members;
         for (const int g : order) {
+            const Probe& probe = probes_[g];
+            const double cosine = probe.normal[0] * unit[0] + probe.normal[1] * unit[1] +
+                                  probe.normal[2] * unit[2];
+            if (std::fabs(cosine) < 0.9) continue;
+            const double gap = probe.vertex[0] * unit[0] + probe.vertex[1] * unit[1] +
+                               probe.vertex[2] * unit[2] + unit[3];
+            if (std::fabs(gap) > delta_) continue;
             const Group& group = groups_[g];
             if (taken_[g] || is_demoted(group)) continue;
-            const double cosine = group.unit[0] * unit[0] + group.unit[1] * unit[1] +
-                                  group.unit[2] * unit[2];
-            if (std::fabs(cosine) < 0.9) continue;
             bool near = true;
             for (const int v : group.vertices)
                 if (std::fabs(distance(unit, solid_.points[v])) > delta_) {
@@ -195,6 +207,7 @@ private:
     PointTable& points_;
     PlaneClasses result_;
     std::vector<Group> groups_;
+    std::vector<Probe> probes_;
     std::vector<char> taken_;
 };
 

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <array>
+#include <utility>
 #include <vector>
 
 #include "half_edges.h"
@@ -12,8 +13,11 @@ namespace tetra::notch {
 // A set of half-edges that bounds one or more solids, closed under twin and next.
 struct Piece {
     std::vector<int> edges;
-    // Planes known to cross no notch of the piece, and so of no part of it.
+    // Planes known to cross no notch of the piece, and so of no part of it; sorted.
     std::vector<int> clear_planes;
+    // Least numbers of notch edges that planes cross, where known, and the edges there were.
+    std::vector<std::pair<int, int>> crossed_at_least;
+    int notch_edges = 0;
 };
 
 // Incidence and arithmetic contradict each other (plane classes only, NOTCHES 4). Found before
@@ -61,6 +65,8 @@ struct Workspace {
     std::vector<int> label_stamp, label;  // per half-edge: the surface it is on
     std::vector<int> cycle_stamp;         // per half-edge
     std::vector<int> plane_count;         // zero between uses
+    std::vector<int> plane_bound;         // zero between uses
+    int notches_split = 0;                // by the last cut
     int stamp = 0;
 };
 
