@@ -35,12 +35,17 @@ Try try_grid(const SurfaceView& surface, int facet_contacts, int bits, Progress&
 
 GridChoice choose_grid(const std::vector<Vec3d>& vertices, const Validation& valid, int lowest,
                        int highest, Progress& progress) {
-    const SurfaceView surface = valid.surface(vertices);
+    return choose_grid(valid.surface(vertices), valid.counts.facet_contacts, lowest, highest,
+                       progress);
+}
+
+GridChoice choose_grid(const SurfaceView& surface, int facet_contacts, int lowest, int highest,
+                       Progress& progress) {
     GridChoice fallback;
     bool found = false;
     std::vector<int> rejected;
     for (int bits = lowest; bits <= highest; ++bits) {
-        Try t = try_grid(surface, valid.counts.facet_contacts, bits, progress);
+        Try t = try_grid(surface, facet_contacts, bits, progress);
         if (t.faithful) return {std::move(t.solid), t.report, std::move(rejected)};
         if (t.valid && !found) {
             found = true;

@@ -58,4 +58,8 @@ struct GridChoice {
 GridChoice choose_grid(const std::vector<Vec3d>& vertices, const Validation& valid, int lowest,
                        int highest, Progress& progress);
 
+// The same for triangles that were validated before; `facet_contacts` is what validation counted.
+GridChoice choose_grid(const SurfaceView& valid, int facet_contacts, int lowest, int highest,
+                       Progress& progress);
+
 }  // namespace tetra
