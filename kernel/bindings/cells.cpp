@@ -25,9 +25,9 @@ CellsOptions to_options(const nb::dict& options) {
     const auto extent = option_or<std::string>(options, "extent", "notch");
     if (extent != "notch" && extent != "whole" && extent != "random")
         throw nb::value_error("option extent must be notch, whole or random");
-    chosen.extent = extent == "whole" ? CutExtent::whole_plane
-                                      : (extent == "random" ? CutExtent::random
-                                                            : CutExtent::notch_components);
+    chosen.extent = extent == "whole"
+                        ? CutExtent::whole_plane
+                        : (extent == "random" ? CutExtent::random : CutExtent::notch_components);
     chosen.merge = option_or(options, "merge", true);
     chosen.flatness = option_or(options, "flatness", chosen.flatness);
     if (!(chosen.flatness >= 0 && chosen.flatness <= 8))
@@ -68,8 +68,7 @@ std::string hexadecimal(const Int256& value) {
     std::string text = minus ? "-" : "";
     char digits[17];
     for (int i = 3; i >= 0; --i) {
-        std::snprintf(digits, sizeof digits, "%016llx",
-                      static_cast<unsigned long long>(m.limb[i]));
+        std::snprintf(digits, sizeof digits, "%016llx", static_cast<unsigned long long>(m.limb[i]));
         text += digits;
     }
     return text;
@@ -79,7 +78,8 @@ std::string hexadecimal(const Int256& value) {
 nb::list exact_rows(const std::vector<HPoint>& points) {
     nb::list rows;
     for (const HPoint& p : points)
-        rows.append(nb::make_tuple(hexadecimal(p.x), hexadecimal(p.y), hexadecimal(p.z), hexadecimal(p.w)));
+        rows.append(
+            nb::make_tuple(hexadecimal(p.x), hexadecimal(p.y), hexadecimal(p.z), hexadecimal(p.w)));
     return rows;
 }
 
@@ -101,8 +101,7 @@ nb::dict convex_cells_arrays(const VertexArray& vertex_array, const TriangleArra
         return convex_cells(grid, vertices, chosen, p);
     });
     nb::dict result;
-    result["report"] =
-        to_report(cells.stats, cells.cell_solid.size(), cells.points.size(), step);
+    result["report"] = to_report(cells.stats, cells.cell_solid.size(), cells.points.size(), step);
     if (option_or(options, "exact_points", false)) {
         result["exact_points"] = exact_rows(cells.exact);
         result["grid_origin"] = nb::make_tuple(origin[0], origin[1], origin[2]);

@@ -37,8 +37,7 @@ HPoint meet(const Vec3i& u, const Vec3i& v, Int128 su, Int128 sv) {
     }
     HPoint r;
     Int256* out[3] = {&r.x, &r.y, &r.z};
-    for (int k = 0; k < 3; ++k)
-        *out[k] = wide_product(sv, u[k]) - wide_product(su, v[k]);
+    for (int k = 0; k < 3; ++k) *out[k] = wide_product(sv, u[k]) - wide_product(su, v[k]);
     r.w = Int256(sv) - Int256(su);
     return r;
 }
@@ -66,10 +65,9 @@ HPoint meet(const Plane& p, const Plane& q, const Plane& r) {
 }
 
 int side_of_plane(const Plane& plane, const HPoint& point) {
-    const Int256 v = multiply<4>(WideInt<1>(plane.a), point.x) +
-                     multiply<4>(WideInt<1>(plane.b), point.y) +
-                     multiply<4>(WideInt<1>(plane.c), point.z) +
-                     multiply<4>(WideInt<2>(plane.d), point.w);
+    const Int256 v =
+        multiply<4>(WideInt<1>(plane.a), point.x) + multiply<4>(WideInt<1>(plane.b), point.y) +
+        multiply<4>(WideInt<1>(plane.c), point.z) + multiply<4>(WideInt<2>(plane.d), point.w);
     return v.sign();
 }
 

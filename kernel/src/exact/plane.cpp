@@ -11,8 +11,7 @@ UInt128 magnitude(Int128 v) { return v < 0 ? -static_cast<UInt128>(v) : static_c
 
 int trailing_zeros(UInt128 v) {
     const auto low = static_cast<std::uint64_t>(v);
-    return low ? __builtin_ctzll(low)
-               : 64 + __builtin_ctzll(static_cast<std::uint64_t>(v >> 64));
+    return low ? __builtin_ctzll(low) : 64 + __builtin_ctzll(static_cast<std::uint64_t>(v >> 64));
 }
 
 }  // namespace
@@ -57,10 +56,9 @@ Int128 plane_value(const Plane& plane, const Vec3i& point) {
 
 std::size_t PlaneTable::Hash::operator()(const Plane& p) const {
     std::uint64_t h = 0x9e3779b97f4a7c15u;
-    for (const std::uint64_t v :
-         {static_cast<std::uint64_t>(p.a), static_cast<std::uint64_t>(p.b),
-          static_cast<std::uint64_t>(p.c), static_cast<std::uint64_t>(p.d),
-          static_cast<std::uint64_t>(p.d >> 64)}) {
+    for (const std::uint64_t v : {static_cast<std::uint64_t>(p.a), static_cast<std::uint64_t>(p.b),
+                                  static_cast<std::uint64_t>(p.c), static_cast<std::uint64_t>(p.d),
+                                  static_cast<std::uint64_t>(p.d >> 64)}) {
         h ^= v + 0x9e3779b97f4a7c15u + (h << 6) + (h >> 2);
         h *= 0xff51afd7ed558ccdu;
         h ^= h >> 32;

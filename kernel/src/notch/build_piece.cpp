@@ -18,7 +18,7 @@ struct Side {
 // Position of facets around the axis u -> v, counter-clockwise from a first facet: 0 for the
 // same half plane, then by exact signs.
 class Radial {
-public:
+  public:
     Radial(const GridSolid& solid, int u, int v, int first)
         : p_(solid.points), u_(u), v_(v), first_(first) {}
 
@@ -36,7 +36,7 @@ public:
     }
     bool equal(int a, int b) const { return !less(a, b) && !less(b, a); }
 
-private:
+  private:
     bool same_side(int w) const {
         // w and first are coplanar with the axis: compare cross products with the axis.
         for (int k = 0; k < 3; ++k) {
@@ -51,7 +51,7 @@ private:
 };
 
 class Builder {
-public:
+  public:
     Builder(const GridSolid& solid, const PlaneClasses& classes, PointTable& points,
             HalfEdges& edges)
         : solid_(solid), classes_(classes), points_(points), edges_(edges) {}
@@ -65,7 +65,7 @@ public:
         return std::move(piece_);
     }
 
-private:
+  private:
     void add_triangles() {
         for (std::size_t t = 0; t < solid_.triangles.size(); ++t) {
             const Triangle& tri = solid_.triangles[t];
@@ -74,8 +74,7 @@ private:
                 h[k] = edges_.add(tri[k], classes_.key[t], -1);
                 piece_.edges.push_back(h[k]);
                 const int u = tri[k], v = tri[(k + 1) % 3];
-                sides_.push_back(
-                    {std::min(u, v), std::max(u, v), h[k], u < v, tri[(k + 2) % 3]});
+                sides_.push_back({std::min(u, v), std::max(u, v), h[k], u < v, tri[(k + 2) % 3]});
             }
             for (int k = 0; k < 3; ++k) edges_.link(h[k], h[(k + 1) % 3]);
         }
@@ -88,8 +87,8 @@ private:
 
     void pair_edges() {
         for (std::size_t i = 0, j; i < sides_.size(); i = j) {
-            for (j = i; j < sides_.size() && sides_[j].lo == sides_[i].lo &&
-                        sides_[j].hi == sides_[i].hi;)
+            for (j = i;
+                 j < sides_.size() && sides_[j].lo == sides_[i].lo && sides_[j].hi == sides_[i].hi;)
                 ++j;
             const int line = points_.input_line(sides_[i].lo, sides_[i].hi);
             for (std::size_t k = i; k < j; ++k) edges_[sides_[k].half_edge].line = line;
@@ -165,7 +164,7 @@ private:
     Piece piece_;
     std::vector<Side> sides_;
 
-public:
+  public:
     // (n_own x n_twin) . direction < 0, exactly (5b+9 bits).
     static bool is_reflex(const PointTable& points, const HalfEdges& edges, int h) {
         const int t = edges[h].twin;
@@ -174,8 +173,7 @@ public:
         const Direction n = points.cross(plane_of(a), plane_of(b));
         const Vec3i &u = points.input(edges[h].org), &v = points.input(edges[t].org);
         Int256 dot;
-        for (int k = 0; k < 3; ++k)
-            dot += multiply<4>(WideInt<2>(n[k]), WideInt<1>(v[k] - u[k]));
+        for (int k = 0; k < 3; ++k) dot += multiply<4>(WideInt<2>(n[k]), WideInt<1>(v[k] - u[k]));
         return dot.sign() * key_sign(a) * key_sign(b) < 0;
     }
 };

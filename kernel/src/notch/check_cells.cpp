@@ -10,7 +10,7 @@ namespace tetra::notch {
 namespace {
 
 class Checker {
-public:
+  public:
     explicit Checker(Decomposition& result) : r_(result) {}
 
     Fault run() {
@@ -25,7 +25,7 @@ public:
         return {};
     }
 
-private:
+  private:
     void gather(int seed) {
         cell_.assign(1, seed);
         seen_[seed] = 1;
@@ -88,8 +88,6 @@ private:
 
 }  // namespace
 
-Fault find_fault(Decomposition& result) {
-    return Checker(result).run();
-}
+Fault find_fault(Decomposition& result) { return Checker(result).run(); }
 
 }  // namespace tetra::notch

@@ -19,8 +19,7 @@ std::vector<Candidate> candidates_of(const std::vector<int>& planes_of_edges,
                                      const std::vector<int>& excluded, std::vector<int>& count) {
     std::vector<Candidate> list;
     for (const int p : planes_of_edges)
-        if (count[p]++ == 0 &&
-            std::find(excluded.begin(), excluded.end(), p) == excluded.end())
+        if (count[p]++ == 0 && std::find(excluded.begin(), excluded.end(), p) == excluded.end())
             list.push_back({p, 0});
     for (Candidate& c : list) c.carried = count[c.plane];
     for (const int p : planes_of_edges) count[p] = 0;
@@ -179,8 +178,7 @@ int choose_plane(PointTable& points, const HalfEdges& edges, Piece& piece,
             return c.plane;
     EdgeEnds ends;
     ends.reserve(carried.size());
-    for (const int h : carried)
-        ends.add(points.approx(edges[h].org), points.approx(edges.dest(h)));
+    for (const int h : carried) ends.add(points.approx(edges[h].org), points.approx(edges.dest(h)));
     return fewest_crossed(points, list, ends, reach, piece, work.plane_bound);
 }
 

@@ -16,8 +16,9 @@ void assign_notches(std::vector<Notch>& notches, Rule rule, std::uint64_t seed);
 
 // The assigned plane of a piece's notches that crosses fewest notches, of those the one that is
 // assigned most (NOTCHES 6.2), counted in doubles with ends within `reach` grid steps as on the
-// plane: a choice, not a decision. Fills piece.clear_planes when those it has are used up. -1 when the piece has no notch or all its planes are in `excluded`.
-// `plain` gives the lowest notch's plane, `random` any.
+// plane: a choice, not a decision. Fills piece.clear_planes when those it has are used up. -1 when
+// the piece has no notch or all its planes are in `excluded`. `plain` gives the lowest notch's
+// plane, `random` any.
 int choose_plane(PointTable& points, const HalfEdges& edges, Piece& piece,
                  const std::vector<Notch>& notches, Rule rule, double reach,
                  const std::vector<int>& excluded, std::uint64_t& state, Workspace& work);

@@ -59,7 +59,7 @@ struct Attempt {
 constexpr int kMaxRestarts = 24;
 
 class Cutter {
-public:
+  public:
     Cutter(const std::vector<Vec3d>& vertices, const CellsOptions& options, Progress& progress)
         : vertices_(vertices), options_(options), progress_(progress) {}
 
@@ -74,7 +74,7 @@ public:
 
     ConvexCells take() { return std::move(out_); }
 
-private:
+  private:
     // Plane classes first; those that contradict themselves go back to exact triangles; at last
     // exact planes only, which always work (NOTCHES 4).
     Attempt attempt(const GridSolid& solid, std::uint64_t seed) {
@@ -147,8 +147,7 @@ private:
                 if (seen[h] == 2) continue;
                 for (int i = h; seen[i] != 2; i = r.edges[i].next) {
                     seen[i] = 2;
-                    out_.facet_vertices.push_back(
-                        point_number(solid, r, planes, r.edges[i].org));
+                    out_.facet_vertices.push_back(point_number(solid, r, planes, r.edges[i].org));
                 }
                 out_.facet_offsets.push_back(static_cast<std::int64_t>(out_.facet_vertices.size()));
                 out_.facet_source.push_back(source_of_key[r.edges[h].key]);

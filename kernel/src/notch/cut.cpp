@@ -25,7 +25,7 @@ struct Opening {
 };
 
 class Surgeon {
-public:
+  public:
     Surgeon(PointTable& points, HalfEdges& edges, Piece&& piece, const Section& section,
             Workspace& work)
         : points_(points),
@@ -46,7 +46,7 @@ public:
         return split_pieces(points_, edges_, piece_.edges, work_);
     }
 
-private:
+  private:
     int add(int org, int key, int line, int notch = -1) {
         const int h = edges_.add(org, key, line, notch);
         piece_.edges.push_back(h);
@@ -80,9 +80,9 @@ private:
     };
 
     Crossing* find_crossing(int h) {
-        const auto place = std::lower_bound(
-            crossings_.begin(), crossings_.end(), h,
-            [](const Crossing& a, int value) { return a.half_edge < value; });
+        const auto place =
+            std::lower_bound(crossings_.begin(), crossings_.end(), h,
+                             [](const Crossing& a, int value) { return a.half_edge < value; });
         return place != crossings_.end() && place->half_edge == h ? &*place : nullptr;
     }
 

@@ -21,9 +21,9 @@ Rule rule_of(NotchRule rule) {
 constexpr std::size_t kPlanesTried = 32;
 
 class Run {
-public:
-    Run(const GridSolid& solid, const CellsOptions& options, double delta,
-        Decomposition& out, Progress& progress)
+  public:
+    Run(const GridSolid& solid, const CellsOptions& options, double delta, Decomposition& out,
+        Progress& progress)
         : solid_(solid),
           options_(options),
           reach_(delta > 0 ? 2 * delta : 1e-3),
@@ -51,7 +51,7 @@ public:
         }
     }
 
-private:
+  private:
     // Whether arithmetic agrees with incidence at every vertex.
     bool lies_on_planes(const Piece& piece) const {
         return std::all_of(piece.edges.begin(), piece.edges.end(), [&](int h) {
@@ -64,8 +64,7 @@ private:
         std::vector<int> excluded, at_fault;
         for (;;) {
             const int plane = choose_plane(out_.points, out_.edges, piece, notches_,
-                                           rule_of(options_.rule), reach_, excluded, state_,
-                                           work_);
+                                           rule_of(options_.rule), reach_, excluded, state_, work_);
             if (plane < 0) break;
             try {
                 cut(std::move(piece), trace(piece, plane), open);
@@ -186,14 +185,14 @@ private:
 }  // namespace
 
 Decomposition decompose(const GridSolid& solid, const CellsOptions& options, double delta,
-                        const std::vector<char>& demoted, std::uint64_t seed,
-                        Progress& progress) {
+                        const std::vector<char>& demoted, std::uint64_t seed, Progress& progress) {
     Decomposition out(solid.grid.bits);
     out.classes = assign_planes(solid, delta, demoted, out.points);
     place_vertices(solid, out.classes, out.points);
     Run(solid, options, delta, out, progress).cut_all(seed);
     out.raw_cells = static_cast<int>(out.cells.size());
-    if (options.merge && out.contradictions.empty()) out.cells = merge_cells(out.points, out.edges, out.cells);
+    if (options.merge && out.contradictions.empty())
+        out.cells = merge_cells(out.points, out.edges, out.cells);
     return out;
 }
 

@@ -24,7 +24,7 @@ Vec3d cross(const Vec3d& a, const Vec3d& b) {
 // Gram-Schmidt over rows (unit normal, residual): each row that still says something new moves
 // the point within the space the earlier rows leave free.
 class Correction {
-public:
+  public:
     void add(const Vec3d& normal, double residual) {
         if (count_ == 3) return;
         Vec3d n = normal;
@@ -44,7 +44,7 @@ public:
     }
     const Vec3d& shift() const { return shift_; }
 
-private:
+  private:
     std::array<Vec3d, 3> basis_{};
     Vec3d shift_{0, 0, 0};
     int count_ = 0;

@@ -9,7 +9,7 @@ namespace tetra::notch {
 
 // Keys must not be ~0. References stay valid until the next insert.
 class FlatMap {
-public:
+  public:
     FlatMap() : keys_(64, kEmpty), values_(64) {}
 
     // The value of a key, -1 when it is not there.
@@ -35,7 +35,7 @@ public:
         }
     }
 
-private:
+  private:
     static constexpr std::uint64_t kEmpty = ~std::uint64_t{0};
     static std::size_t mix(std::uint64_t k) {
         k ^= k >> 33;

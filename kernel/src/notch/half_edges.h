@@ -23,7 +23,7 @@ constexpr int opposite_key(int key) { return key ^ 1; }
 constexpr int key_sign(int key) { return (key & 1) ? -1 : 1; }
 
 class HalfEdges {
-public:
+  public:
     HalfEdge& operator[](int h) { return pool_[h]; }
     const HalfEdge& operator[](int h) const { return pool_[h]; }
     int dest(int h) const { return pool_[pool_[h].twin].org; }
@@ -47,7 +47,7 @@ public:
     // Removes the origin of h if it has two edges of one straight line; returns whether it did.
     bool straighten(int h);
 
-private:
+  private:
     bool straight(int h) const;
     std::vector<HalfEdge> pool_;
     std::vector<int> free_;

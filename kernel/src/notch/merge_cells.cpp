@@ -11,7 +11,7 @@ namespace tetra::notch {
 namespace {
 
 class Merger {
-public:
+  public:
     Merger(PointTable& points, HalfEdges& edges) : points_(points), edges_(edges) {}
 
     std::vector<int> run(const std::vector<int>& cells) {
@@ -27,7 +27,7 @@ public:
         return survivors(cells.size());
     }
 
-private:
+  private:
     int find(int c) {
         while (parent_[c] != c) c = parent_[c] = parent_[parent_[c]];
         return c;

@@ -38,7 +38,7 @@ struct Surface {
 };
 
 class Splitter {
-public:
+  public:
     Splitter(const PointTable& points, const HalfEdges& edges, const std::vector<int>& all,
              Workspace& work)
         : points_(points), edges_(edges), all_(all), work_(work) {}
@@ -58,7 +58,7 @@ public:
         return collect();
     }
 
-private:
+  private:
     bool labelled(int h) const { return work_.label_stamp[h] == work_.stamp; }
     void set_label(int h, int surface) {
         work_.label_stamp[h] = work_.stamp;

@@ -53,7 +53,9 @@ std::optional<Place> moved_place(const Vec3i& grid, const std::vector<int>& plan
 
 // An edge must not turn round when its ends move.
 void keep_directions(const GridSolid& solid, std::vector<std::optional<Place>>& places) {
-    const auto at = [&](int v) { return places[v] ? places[v]->approx : as_doubles(solid.points[v]); };
+    const auto at = [&](int v) {
+        return places[v] ? places[v]->approx : as_doubles(solid.points[v]);
+    };
     for (bool again = true; again;) {
         again = false;
         for (const Triangle& t : solid.triangles)

@@ -53,7 +53,7 @@ Vec3d cross(const Vec3i& a, const Vec3i& b, const Vec3i& c) {
 double length(const Vec3d& v) { return std::sqrt(v[0] * v[0] + v[1] * v[1] + v[2] * v[2]); }
 
 class Classifier {
-public:
+  public:
     Classifier(const GridSolid& solid, double delta, const std::vector<char>& demoted,
                PointTable& points)
         : solid_(solid), delta_(delta), demoted_(demoted), points_(points) {}
@@ -67,7 +67,7 @@ public:
         return std::move(result_);
     }
 
-private:
+  private:
     int plane(std::size_t t) const { return result_.key[t] >> 1; }
 
     void make_groups() {
@@ -108,8 +108,8 @@ private:
                          [&](int a, int b) { return groups_[a].area > groups_[b].area; });
         taken_.assign(groups_.size(), 0);
         for (const Group& g : groups_)
-            probes_.push_back({{g.unit[0], g.unit[1], g.unit[2]},
-                               as_doubles(solid_.points[g.vertices.front()])});
+            probes_.push_back(
+                {{g.unit[0], g.unit[1], g.unit[2]}, as_doubles(solid_.points[g.vertices.front()])});
         for (const int seed : order) {
             if (taken_[seed] || is_demoted(groups_[seed])) continue;
             grow(seed, order);
@@ -145,8 +145,8 @@ private:
         std::vector<int> members;
         for (const int g : order) {
             const Probe& probe = probes_[g];
-            const double cosine = probe.normal[0] * unit[0] + probe.normal[1] * unit[1] +
-                                  probe.normal[2] * unit[2];
+            const double cosine =
+                probe.normal[0] * unit[0] + probe.normal[1] * unit[1] + probe.normal[2] * unit[2];
             if (std::fabs(cosine) < 0.9) continue;
             const double gap = probe.vertex[0] * unit[0] + probe.vertex[1] * unit[1] +
                                probe.vertex[2] * unit[2] + unit[3];
@@ -194,8 +194,8 @@ private:
     void assign(const Group& group, int plane, const Unit& unit) {
         for (const int t : group.triangles) {
             const Triangle& tri = solid_.triangles[t];
-            const Vec3d n = cross(solid_.points[tri[0]], solid_.points[tri[1]],
-                                  solid_.points[tri[2]]);
+            const Vec3d n =
+                cross(solid_.points[tri[0]], solid_.points[tri[1]], solid_.points[tri[2]]);
             const bool reversed = n[0] * unit[0] + n[1] * unit[1] + n[2] * unit[2] < 0;
             result_.key[t] = 2 * plane + (reversed ? 1 : 0);
         }

@@ -10,9 +10,9 @@
 namespace tetra::notch {
 
 struct PlaneClasses {
-    std::vector<int> key;         // per triangle, see HalfEdge::key
-    std::vector<int> exact_key;   // per triangle: the key of its own plane
-    std::vector<char> is_class;   // per plane id: holds triangles that are not exactly on it
+    std::vector<int> key;        // per triangle, see HalfEdge::key
+    std::vector<int> exact_key;  // per triangle: the key of its own plane
+    std::vector<char> is_class;  // per plane id: holds triangles that are not exactly on it
 };
 
 // Gives every triangle a plane. With delta > 0 (grid steps),

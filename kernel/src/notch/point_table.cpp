@@ -186,8 +186,8 @@ int PointTable::orient(int a, int b, int c, int axis) const {
     const double bu = approx_[b][u] - approx_[a][u], bv = approx_[b][v] - approx_[a][v];
     const double cu = approx_[c][u] - approx_[a][u], cv = approx_[c][v] - approx_[a][v];
     const double det = bu * cv - bv * cu;
-    const double bound = 8 * tolerance_ *
-                         (std::fabs(bu) + std::fabs(bv) + std::fabs(cu) + std::fabs(cv) + 1);
+    const double bound =
+        8 * tolerance_ * (std::fabs(bu) + std::fabs(bv) + std::fabs(cu) + std::fabs(cv) + 1);
     if (det > bound) return 1;
     if (det < -bound) return -1;
     using Wide = WideInt<10>;

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-// The points, lines and planes of a run of notch cutting: one id per place, signs by incidence first.
+// The points, lines and planes of a run of notch cutting: one id per place, signs by incidence
+// first.
 #pragma once
 
 #include <vector>
@@ -23,7 +24,7 @@ using Direction = std::array<Int128, 3>;
 inline constexpr double kClassReach = 16;
 
 class PointTable {
-public:
+  public:
     explicit PointTable(int grid_bits) : tolerance_(std::ldexp(1.0, grid_bits - 46)) {}
 
     int add_input(const Vec3i& point);
@@ -48,7 +49,7 @@ public:
     // Orientation of three points projected along `axis`.
     int orient(int a, int b, int c, int axis) const;
 
-    Direction cross(int p, int q) const;       // normal of p x normal of q
+    Direction cross(int p, int q) const;  // normal of p x normal of q
     Direction direction(int line) const;
 
     int points() const { return static_cast<int>(approx_.size()); }
@@ -71,7 +72,7 @@ public:
     }
     double tolerance() const { return tolerance_; }
 
-private:
+  private:
     int find(const HPoint& exact, const Vec3d& approx, std::uint64_t& cell) const;
     int intern(const HPoint& exact, const Vec3d& approx);
     int append(const HPoint& exact, const Vec3d& approx, std::uint64_t cell);

@@ -33,7 +33,7 @@ struct Ray {
 };
 
 class Tracer {
-public:
+  public:
     Tracer(PointTable& points, HalfEdges& edges, Piece& piece, int plane, Workspace& work)
         : points_(points), edges_(edges), piece_(piece), plane_(plane), work_(work) {
         const Plane& p = points.plane(plane);
@@ -57,7 +57,7 @@ public:
         return std::move(section_);
     }
 
-private:
+  private:
     [[noreturn]] void fail(const char* reason, std::vector<int> planes) {
         planes.push_back(plane_);
         throw Inconsistent{reason, std::move(planes)};
@@ -82,8 +82,7 @@ private:
     // The point where a crossing edge meets the plane.
     int crossing_point(int h) {
         const HalfEdge& e = edges_[h];
-        const int v = points_.meet(e.line, plane_, plane_of(e.key),
-                                   plane_of(edges_[e.twin].key));
+        const int v = points_.meet(e.line, plane_, plane_of(e.key), plane_of(edges_[e.twin].key));
         if (v >= static_cast<int>(work_.side.size())) {
             work_.side.resize(v + 1);
             work_.side_stamp.resize(v + 1);
@@ -127,9 +126,7 @@ private:
 
     int along(const Slot& s, int a, int b) const { return s.sign * points_.compare(a, b, s.axis); }
 
-    bool on_edge(int h) const {
-        return side(edges_[h].org) == 0 && side(edges_.dest(h)) == 0;
-    }
+    bool on_edge(int h) const { return side(edges_[h].org) == 0 && side(edges_.dest(h)) == 0; }
 
     // +1 when the half-edge runs along its facet's chord direction. Its facet is not parallel.
     int runs_along(int h) {

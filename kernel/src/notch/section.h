@@ -61,7 +61,7 @@ enum class Extent { notch_components, own_notches, whole_plane };
 struct Workspace {
     std::vector<int> side_stamp;
     std::vector<signed char> side;
-    std::vector<int> slot_stamp, slot;  // per key
+    std::vector<int> slot_stamp, slot;    // per key
     std::vector<int> label_stamp, label;  // per half-edge: the surface it is on
     std::vector<int> cycle_stamp;         // per half-edge
     std::vector<int> plane_count;         // zero between uses

@@ -8,7 +8,7 @@ namespace tetra::notch {
 namespace {
 
 class Selector {
-public:
+  public:
     Selector(PointTable& points, const HalfEdges& edges, const Frame& frame, Section& section)
         : points_(points), edges_(edges), frame_(frame), section_(section) {}
 
@@ -24,7 +24,7 @@ public:
         mark_used(extent, own);
     }
 
-private:
+  private:
     int find(int c) {
         while (parent_[c] != c) c = parent_[c] = parent_[parent_[c]];
         return c;

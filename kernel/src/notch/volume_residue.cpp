@@ -20,8 +20,8 @@ std::uint64_t determinant(const Residue& p, const Residue& q, const Residue& r) 
     std::uint64_t sum = 0;
     for (int k = 0; k < 3; ++k) {
         const int u = (k + 1) % 3, v = (k + 2) % 3;
-        sum = plus(sum, multiply_mod(p[k], minus(multiply_mod(q[u], r[v]),
-                                                 multiply_mod(q[v], r[u]))));
+        sum = plus(sum,
+                   multiply_mod(p[k], minus(multiply_mod(q[u], r[v]), multiply_mod(q[v], r[u]))));
     }
     return sum;
 }

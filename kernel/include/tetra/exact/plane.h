@@ -16,7 +16,8 @@ struct Plane {
     friend bool operator==(const Plane&, const Plane&) = default;
 };
 
-// The primitive plane of an oriented triangle, its normal (q-p)x(r-p). The triangle must not be flat.
+// The primitive plane of an oriented triangle, its normal (q-p)x(r-p). The triangle must not be
+// flat.
 Plane plane_through(const Vec3i& p, const Vec3i& q, const Vec3i& r);
 
 Plane opposite(const Plane& plane);
@@ -35,12 +36,12 @@ struct PlaneKey {
 // Stores each plane once, in the orientation whose first non-zero normal component is positive.
 // Ids are given in order of first use.
 class PlaneTable {
-public:
+  public:
     PlaneKey intern(const Plane& plane);
     const Plane& operator[](int id) const { return planes_[static_cast<std::size_t>(id)]; }
     int size() const { return static_cast<int>(planes_.size()); }
 
-private:
+  private:
     struct Hash {
         std::size_t operator()(const Plane& p) const;
     };

@@ -28,16 +28,16 @@ struct CellsOptions {
 };
 
 struct CellsStats {
-    int notches = 0;        // reflex edges after coplanar facets and collinear edges are joined
-    int planes = 0;         // planes that cover the notches
+    int notches = 0;  // reflex edges after coplanar facets and collinear edges are joined
+    int planes = 0;   // planes that cover the notches
     int cuts = 0;
-    int splices = 0;        // cuts that did not separate
-    int raw_cells = 0;      // before merging
-    int restarts = 0;       // runs repeated because a plane class contradicted itself
-    int demoted = 0;        // plane classes taken back to exact triangles
-    double flatness = 0;    // what was used in the end
-    bool exact = true;      // no plane class was needed: volumes agree exactly
-    double volume = 0;      // of the cells, caller's units
+    int splices = 0;      // cuts that did not separate
+    int raw_cells = 0;    // before merging
+    int restarts = 0;     // runs repeated because a plane class contradicted itself
+    int demoted = 0;      // plane classes taken back to exact triangles
+    double flatness = 0;  // what was used in the end
+    bool exact = true;    // no plane class was needed: volumes agree exactly
+    double volume = 0;    // of the cells, caller's units
     double solid_volume = 0;
 };
 
