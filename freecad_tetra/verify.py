@@ -1,14 +1,15 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """A result is judged against its surface, from the files alone.
 
-Signs of volumes are exact (rationals where doubles cannot tell); closedness and pairing are
+Signs of tetrahedra are exact (rationals where doubles cannot tell); closedness and pairing are
 combinatorial. Lengths are compared to `TOLERANCE` times the diagonal, because points made by
-intersecting planes are rounded to doubles.
+intersecting planes are rounded to doubles; a cell thinner than that may even lie inside out.
 """
 
 from __future__ import annotations
 
 from collections.abc import Callable
+from dataclasses import dataclass
 from fractions import Fraction
 from typing import Any
 
@@ -50,23 +51,25 @@ def check_cells(
         With the ids of the cells at fault.
     """
     tolerance = TOLERANCE * surface.diagonal()
-    total, worst, planes, bad = 0.0, 0.0, [], []
+    total, worst, thick, bad = 0.0, 0.0, [], []
     for k, loops in enumerate(cells):
         if k % 64 == 0:
             _poll(progress, k / len(cells))
-        volume, equations, out = _one_cell(points, loops)
-        planes.append(equations)
-        total += volume
-        worst = max(worst, out)
-        if not _closed(loops) or not volume > 0 or out > tolerance:
+        cell = _one_cell(points, loops, tolerance)
+        total += cell.volume
+        worst = max(worst, cell.outside)
+        inverted = cell.volume < -tolerance * cell.reach**2
+        if not _closed(loops) or inverted or cell.outside > tolerance:
             bad.append(k)
+        if cell.volume > tolerance * cell.area and len(cell.planes) > 3:
+            thick.append((cell.planes, points[np.unique(np.concatenate(loops))]))
     if bad:
         raise VerificationFailed(
-            f"{len(bad)} cells are not closed, convex and of positive volume "
+            f"{len(bad)} cells are not closed and convex "
             f"(first: cell {bad[0]})", cells=bad
         )  # fmt: skip
     error = _volume_error(surface, total)
-    doubled, missed, outside = _sampled(surface, planes, points, cells, 4 * tolerance)
+    doubled, missed, outside = _sampled(surface, thick, 4 * tolerance)
     if doubled or missed or outside:
         raise VerificationFailed(
             f"of {SAMPLES} points {doubled} lie in two cells, {missed} in none, "
@@ -162,41 +165,62 @@ def _closed(loops: Any) -> bool:
     return np.array_equal(np.sort(start * size + stop), np.sort(stop * size + start))
 
 
-def _one_cell(points: FloatArray, loops: Any) -> tuple[float, FloatArray, float]:
-    """Return the volume, the facet planes (f, 4) and how far a vertex lies outside of one."""
-    ids = np.unique(np.concatenate(loops))
-    own = points[ids]
+@dataclass(frozen=True)
+class _Cell:
+    """Figures of one cell: its radius `reach`, planes (f, 4) of its facets, and how far a vertex
+    lies outside of one."""
+
+    volume: float
+    area: float
+    reach: float
+    planes: FloatArray
+    outside: float
+
+
+def _one_cell(points: FloatArray, loops: Any, tolerance: float) -> _Cell:
+    """Measure one cell.
+
+    The plane of a facet of width w is known at a distance d only to rounding times d / w: so
+    much less does a vertex outside of it count, and nothing when w is below the tolerance.
+    """
+    own = points[np.unique(np.concatenate(loops))]
     centre = own.mean(axis=0)
-    equations = np.zeros((len(loops), 4))
-    volume = 0.0
-    for i, loop in enumerate(loops):
+    reach = float(np.linalg.norm(own - centre, axis=1).max())
+    planes, trust, volume, area = [], [], 0.0, 0.0
+    for loop in loops:
         p = points[loop] - centre
-        parts = np.cross(p - p[0], np.roll(p, -1, axis=0) - p[0])
-        normal = parts.sum(axis=0)
+        normal = np.cross(p - p[0], np.roll(p, -1, axis=0) - p[0]).sum(axis=0)
         volume += float(p[0] @ normal) / 6.0
         size = float(np.linalg.norm(normal))
-        if size > 0:
-            equations[i, :3] = normal / size
-            equations[i, 3] = -float((p @ equations[i, :3]).mean())
-    out = float(((own - centre) @ equations[:, :3].T + equations[:, 3]).max())
-    equations[:, 3] -= equations[:, :3] @ centre
-    return volume, equations, out
+        area += size / 2.0
+        length = float(np.linalg.norm(p - np.roll(p, 1, axis=0), axis=1).max())
+        if size > 4.0 * tolerance * length:
+            normal = normal / size
+            planes.append([*normal, -float((p @ normal).mean())])
+            trust.append(size / (size + length * reach))
+    table = np.array(planes, np.float64).reshape(-1, 4)
+    heights = ((own - centre) @ table[:, :3].T + table[:, 3]) * np.array(trust)
+    outside = float(heights.max()) if planes else 0.0
+    table[:, 3] -= table[:, :3] @ centre
+    return _Cell(volume, area, reach, table, outside)
 
 
 def _sampled(
-    surface: Solid, planes: list[FloatArray], points: FloatArray, cells: Any, near: float
+    surface: Solid, cells: list[tuple[FloatArray, FloatArray]], near: float
 ) -> tuple[int, int, int]:
-    """Count sample points in two cells, in none, and outside the solid; seeded."""
+    """Count sample points in two cells, in none, and outside the solid; seeded.
+
+    A cell is given by its planes (f, 4) and its corners (k, 3).
+    """
     low, high = surface.vertices.min(axis=0), surface.vertices.max(axis=0)
     x = low + (high - low) * np.random.default_rng(1).random((SAMPLES, 3))
     winding, doubtful = _windings(x, surface)
     hits = np.zeros(SAMPLES, np.int64)
-    for equations, loops in zip(planes, cells):
-        box = points[np.unique(np.concatenate(loops))]
-        inside_box = ((x >= box.min(axis=0) - near) & (x <= box.max(axis=0) + near)).all(axis=1)
-        some = np.flatnonzero(inside_box)
+    for planes, corners in cells:
+        above, below = x >= corners.min(axis=0) - near, x <= corners.max(axis=0) + near
+        some = np.flatnonzero((above & below).all(axis=1))
         if len(some):
-            height = (x[some] @ equations[:, :3].T + equations[:, 3]).max(axis=1)
+            height = (x[some] @ planes[:, :3].T + planes[:, 3]).max(axis=1)
             hits[some] += height < 0
             doubtful[some] |= np.abs(height) < near
     inside = winding > 0.5

@@ -240,7 +240,7 @@ def schoenhardt() -> Shape:
     rows = [(2, 1, 0), (3, 4, 5)]
     for i in range(3):
         j = (i + 1) % 3
-        rows += [(i, j, 3 + i), (j, 3 + j, 3 + i)]
+        rows += [(i, j, 3 + j), (i, 3 + j, 3 + i)]
     triangles = np.array(rows, np.int32)
     return Shape(vertices, triangles, exact_volume(vertices, triangles))
 
