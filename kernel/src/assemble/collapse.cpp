@@ -39,11 +39,14 @@ void all_neighbours(const TetComplex& mesh, int p, CollapseScratch& s) {
     s.targets.erase(last, s.targets.end());
 }
 
-void skin_neighbours(const TetComplex& mesh, CollapseScratch& s) {
+void skin_neighbours(const TetComplex& mesh, CarrierKind kind, CollapseScratch& s) {
     std::array<std::array<std::size_t, 2>, 2> sharp;
     std::size_t sharp_count = 0;
     bool one_plane = true;
     const int plane = mesh.facet_class(s.skin[0][1]).plane;
+    // Next to a peel the skin is not exactly flat on the grid: no collapse is safe.
+    for (const auto& edge : s.skin)
+        if (mesh.facet_class(edge[1]).plane < 0) return;
     for (std::size_t i = 0; i < s.skin.size();) {
         std::size_t j = i;
         for (; j < s.skin.size() && s.skin[j][0] == s.skin[i][0]; ++j)
@@ -55,10 +58,10 @@ void skin_neighbours(const TetComplex& mesh, CollapseScratch& s) {
         s.targets.push_back({s.skin[i][0], 0});
         i = j;
     }
-    if (sharp_count == 0 && one_plane) return;
+    if (kind == CarrierKind::facet && sharp_count == 0 && one_plane) return;
     s.targets.clear();
     // Two sharp edges between the same facets: p lies inside a straight edge.
-    if (sharp_count == 2 && same_classes(s.skin, sharp[0], sharp[1]))
+    if (kind == CarrierKind::edge && sharp_count == 2 && same_classes(s.skin, sharp[0], sharp[1]))
         s.targets = {{s.skin[sharp[0][0]][0], 0}, {s.skin[sharp[1][0]][0], 0}};
 }
 
@@ -79,10 +82,10 @@ void find_targets(TetComplex& mesh, int p, CollapseScratch& s) {
         }
     }
     std::sort(s.skin.begin(), s.skin.end());
-    if (s.skin.empty())
+    if (s.skin.empty() && mesh.carrier(p).kind == CarrierKind::inner)
         all_neighbours(mesh, p, s);
-    else
-        skin_neighbours(mesh, s);
+    else if (!s.skin.empty())
+        skin_neighbours(mesh, mesh.carrier(p).kind, s);
     for (Target& target : s.targets)
         for (int t : s.star) target.killed += TetComplex::contains(mesh.tet(t), target.point);
     std::stable_sort(s.targets.begin(), s.targets.end(),

@@ -14,6 +14,7 @@ struct FlipWalkLimits {
     int sideways = 4;  // flips that leave the count as it is
     int max_ring = 6;
     int width = 6;     // blockers looked at before going sideways
+    int wander = 0;    // flips near the blockers to draw for a sideways one; 0 = only at them
 };
 
 // IsBad(tet): does the tetrahedron block? May_remove(a, b): may the edge a-b go?
@@ -32,7 +33,10 @@ public:
         int sideways = limits_.sideways;
         while (!bad_.empty()) {
             if (lower()) continue;
-            if (sideways_seen_ == 0 || sideways-- == 0) return false;
+            if (sideways-- == 0) return false;
+            const bool near = limits_.wander > 0 && (sideways_seen_ == 0 || (rng_.next() & 1));
+            if (near && wander()) continue;
+            if (sideways_seen_ == 0) return false;
             commit(sideways_);
         }
         touched.insert(touched.end(), touched_.begin(), touched_.end());
@@ -59,13 +63,8 @@ private:
         const int step = kSteps[rng_.below(4)];
         for (int k = 0; k < 10; ++k, op = (op + step) % 10) {
             Flip flip;
-            if (!(op < 4 ? propose_face(t, op, flip)
-                         : propose_ring(t, kTetEdges[op - 4][0], kTetEdges[op - 4][1], flip)))
-                continue;
-            int before = 0;
-            for (int killed : flip.killed())
-                before += std::find(bad_.begin(), bad_.end(), killed) != bad_.end();
-            const int delta = static_cast<int>(flip.cost) - before;
+            if (!propose(t, op, flip)) continue;
+            const int delta = rise(flip);
             if (delta < 0) {
                 commit(flip);
                 return true;
@@ -73,6 +72,34 @@ private:
             if (delta == 0 && rng_.below(++sideways_seen_) == 0) sideways_ = flip;
         }
         return false;
+    }
+
+    // A random flip in the star of a random corner of a blocker that does not raise the count.
+    bool wander() {
+        for (int k = 0; k < limits_.wander; ++k) {
+            const int bad = bad_[static_cast<std::size_t>(rng_.below(static_cast<int>(bad_.size())))];
+            const int corner = mesh_.tet(bad)[static_cast<std::size_t>(rng_.below(4))];
+            const std::vector<int>& star = mesh_.star_of(corner);
+            const int t = star[static_cast<std::size_t>(rng_.below(static_cast<int>(star.size())))];
+            Flip flip;
+            if (!propose(t, rng_.below(10), flip) || rise(flip) > 0) continue;
+            commit(flip);
+            return true;
+        }
+        return false;
+    }
+
+    bool propose(int t, int op, Flip& flip) {
+        return op < 4 ? propose_face(t, op, flip)
+                      : propose_ring(t, kTetEdges[op - 4][0], kTetEdges[op - 4][1], flip);
+    }
+
+    // How many blockers more there would be.
+    int rise(const Flip& flip) const {
+        int before = 0;
+        for (int killed : flip.killed())
+            before += std::find(bad_.begin(), bad_.end(), killed) != bad_.end();
+        return static_cast<int>(flip.cost) - before;
     }
 
     bool propose_face(int t, int face, Flip& flip) {

@@ -60,6 +60,13 @@ bool may_peel(TetComplex& mesh, int t, const std::vector<Vec3d>& places) {
             inner[inners++] = i;
         }
     }
+    // The new skin may not leave a neighbour with three skin faces: nothing could free its tip.
+    for (int i : inner) {
+        const int below = mesh.neighbour(t, i) / 4;
+        int skin_faces = 1;
+        for (int k = 0; k < 4; ++k) skin_faces += mesh.neighbour(below, k) < 0;
+        if (skin_faces > 2) return false;
+    }
     const FacetClass& one = mesh.facet_class(~mesh.neighbour(t, skin[0]));
     const FacetClass& two = mesh.facet_class(~mesh.neighbour(t, skin[1]));
     if (one.face != two.face) return false;

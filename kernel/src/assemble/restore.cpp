@@ -15,6 +15,7 @@
 #include "tet_complex.h"
 #include "tetra/assemble/tet_quality.h"
 #include "tetra/errors.h"
+#include "unlock.h"
 
 namespace tetra {
 namespace {
@@ -166,43 +167,51 @@ private:
         }
     }
 
-    // p together with the other unmoved points of what blocks it (B4 a).
-    bool move_group(int p) {
+    // p and the other unmoved points of what blocks it (B4 a).
+    std::vector<int> group_of(int p) {
         std::vector<int> group{p};
         for (int t : blockers(p))
             for (int v : mesh_.tet(t))
                 if (targets_.bound[at(v)] && !moved_[at(v)]) group.push_back(v);
         std::sort(group.begin(), group.end());
         group.erase(std::unique(group.begin(), group.end()), group.end());
-        if (group.size() < 2) return false;
-        for (int v : group) settle(v);
-        for (int v : group)
-            for (int t : mesh_.star_of(v))
-                if (!sound(mesh_.tet(t))) {
-                    for (int w : group) {
-                        mesh_.set_place(w, home_[at(w)]);
-                        moved_[at(w)] = 0;
-                    }
-                    return false;
-                }
-        return true;
+        return group;
     }
 
-    bool walk(int p, int sideways) {
-        const auto is_bad = [&](const Tet& t) {
-            return TetComplex::contains(t, p) && !sound_with(t, p);
-        };
+    // Moves the points, then walks through meshes that are valid on the grid until none of their
+    // tetrahedra is unsound in doubles.
+    bool walk(const std::vector<int>& points, int sideways) {
+        std::vector<int> bad;
+        for (int p : points) {
+            const std::vector<int> more = blockers(p);
+            bad.insert(bad.end(), more.begin(), more.end());
+        }
+        for (int p : points) settle(p);
+        if (points.size() > 1)
+            for (int p : points)
+                for (int t : mesh_.star_of(p))
+                    if (!sound(mesh_.tet(t))) bad.push_back(t);
+        std::sort(bad.begin(), bad.end());
+        bad.erase(std::unique(bad.begin(), bad.end()), bad.end());
+        std::erase_if(bad, [&](int t) { return sound(mesh_.tet(t)); });
+        const auto is_bad = [&](const Tet& t) { return !sound(t); };
         const auto may_remove = [](int, int) { return true; };
-        FlipWalk walk(mesh_, {sideways, 7, 6}, rng_, is_bad, may_remove);
+        FlipWalk walk(mesh_, {sideways, 7, 6, sideways / 4}, rng_, is_bad, may_remove);
         std::vector<int> touched;
         const std::size_t mark = mesh_.mark();
-        if (walk.run(blockers(p), touched)) {
+        mesh_.ask_grid_only(true);
+        const bool free = walk.run(std::move(bad), touched);
+        mesh_.ask_grid_only(false);
+        if (free) {
             stats_.flips += walk.flips();
             mesh_.forget();
-            settle(p);
             return true;
         }
         mesh_.undo_to(mark);
+        for (int p : points) {
+            mesh_.set_place(p, home_[at(p)]);
+            moved_[at(p)] = 0;
+        }
         return false;
     }
 
@@ -218,12 +227,39 @@ private:
         return any && move_if_free(p);
     }
 
+    // Removes a Steiner point that is in the way (B4 b): p itself or one of its blockers.
+    bool collapse_near(int p) {
+        std::vector<int> candidates;
+        if (mesh_.steiner(p)) candidates.push_back(p);
+        for (int t : blockers(p))
+            for (int v : mesh_.tet(t))
+                if (v != p && mesh_.steiner(v)) candidates.push_back(v);
+        WalkOptions strong;
+        strong.targets = 6;
+        strong.max_bad = 20;
+        strong.sideways = 20;
+        strong.max_ring = 7;
+        strong.wander = 4;
+        for (int v : candidates) {
+            if (mesh_.star_of(v).empty() || !unlock_collapse(mesh_, v, strong, rng_, scratch_))
+                continue;
+            ++stats_.collapses;
+            targets_.bound[at(v)] = 0;
+            if (v == p || move_if_free(p)) return true;
+        }
+        return false;
+    }
+
     bool unblock(int p) {
-        if (move_if_free(p) || move_group(p)) return true;
-        if (walk(p, 0) || peel_at(p)) return true;
-        for (int k = 0; k < options_.walks; ++k) {
+        if (move_if_free(p) || walk({p}, 0)) return true;
+        const std::vector<int> group = group_of(p);
+        if (group.size() > 1 && walk(group, 0)) return true;
+        if (peel_at(p) || collapse_near(p)) return true;
+        // The last chance is worth longer walks and more of them.
+        const bool last = floor_ == 0;
+        for (int k = 0; k < (last ? 5 : 1) * options_.walks; ++k) {
             progress_.poll("restore", 0.5);
-            if (!walk(p, 30)) continue;
+            if (!walk(k % 4 == 3 ? group : std::vector<int>{p}, last ? 80 : 30)) continue;
             ++stats_.walks;
             return true;
         }
@@ -234,7 +270,7 @@ private:
         for (bool any = true; any;) {
             any = false;
             for (int p : stuck())
-                if (!moved_[at(p)] && unblock(p)) any = true;
+                if (!moved_[at(p)] && targets_.bound[at(p)] && unblock(p)) any = true;
         }
     }
 
@@ -298,6 +334,7 @@ private:
     std::vector<Vec3d> home_;  // the grid's places
     std::vector<char> moved_;  // at its target
     RestoreStats stats_;
+    CollapseScratch scratch_;
     double floor_ = 0;         // least height of a sound tetrahedron, in the caller's unit
 
 public:

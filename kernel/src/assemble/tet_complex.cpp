@@ -25,6 +25,13 @@ bool fits_integer(const HPoint& p) {
     return true;
 }
 
+double twice_area(const Vec3d& a, const Vec3d& b, const Vec3d& c) {
+    const Vec3d u{b[0] - a[0], b[1] - a[1], b[2] - a[2]}, v{c[0] - a[0], c[1] - a[1], c[2] - a[2]};
+    const double x = u[1] * v[2] - u[2] * v[1], y = u[2] * v[0] - u[0] * v[2],
+                 z = u[0] * v[1] - u[1] * v[0];
+    return std::sqrt(x * x + y * y + z * z);
+}
+
 // A triangle seen from one side: of a tetrahedron (code = 4 t + face) or of the skin (~class).
 struct FaceKey {
     int mid, high, code;
@@ -264,10 +271,11 @@ bool TetComplex::positive(int ia, int ib, int ic, int id) const {
     const double bound = 6.01 * (h * (x * y + y * z + z * x) + 0x1p-49 * (x * y * z));
     if (det < -bound) return false;
     if (det > bound) {
-        if (!moved_) return true;
+        if (!moved_ || grid_only_) return true;
     } else if (!exactly_positive(ia, ib, ic, id)) {
         return false;
     }
+    if (grid_only_) return true;
     return orient3d(place_[at(ia)], place_[at(ib)], place_[at(ic)], place_[at(id)]) > 0;
 }
 
@@ -300,15 +308,24 @@ void TetComplex::collapse(int p, int q) {
 void TetComplex::peel(int t) {
     assert(log_.empty());
     std::vector<int> skin;
-    for (int i = 0; i < 4; ++i)
-        if (neighbour(t, i) < 0) skin.push_back(~neighbour(t, i));
+    double largest = -1;
+    int kept = -1;
+    for (int i = 0; i < 4; ++i) {
+        if (neighbour(t, i) >= 0) continue;
+        skin.push_back(~neighbour(t, i));
+        const double area = twice_area(grid_[at(tets_[at(t)][at(kFace[i][0])])],
+                                       grid_[at(tets_[at(t)][at(kFace[i][1])])],
+                                       grid_[at(tets_[at(t)][at(kFace[i][2])])]);
+        if (area <= largest) continue;
+        largest = area;
+        kept = skin.back();
+    }
     assert(skin.size() == 2);
     peeled_.push_back({facet_class(skin[0]).triangle, facet_class(skin[1]).triangle});
-    std::size_t used = 0;
     for (int i = 0; i < 4; ++i) {
         const int code = neighbour(t, i);
         if (code < 0) continue;
-        FacetClass fresh = facet_class(skin[used++]);
+        FacetClass fresh = facet_class(kept);
         fresh.plane = -2 - static_cast<int>(classes_.classes.size());
         classes_.classes.push_back(fresh);
         neighbours_[at(code / 4)][at(code % 4)] = ~(static_cast<int>(classes_.classes.size()) - 1);

@@ -103,6 +103,8 @@ public:
     void set_place(int p, const Vec3d& place) { place_[static_cast<std::size_t>(p)] = place; }
     // From now on places may differ from the grid by more than rounding.
     void release_places() { moved_ = true; }
+    // While set, positive() asks the exact grid points alone.
+    void ask_grid_only(bool only) { grid_only_ = only; }
 
     static int corner(const Tet& t, int p) {
         for (int i = 0; i < 4; ++i)
@@ -129,7 +131,7 @@ public:
     void collapse(int p, int q);
 
     // Takes out a flat tetrahedron with two skin faces: its other two become skin, each of a class
-    // of its own on the plane and face of the skin face it replaces, so that no 2-2 flip reaches it.
+    // of its own with the source of the larger old skin face, so that no 2-2 flip reaches it.
     void peel(int t);
     // Pairs of triangles of the GridSolid whose facets exchanged skin by peels.
     const std::vector<std::array<int, 2>>& peeled_pairs() const { return peeled_; }
@@ -155,6 +157,7 @@ private:
     std::vector<Vec3d> grid_, place_;
     double grid_slack_ = 0, place_slack_ = 0;  // |grid_ - exact|, |place_ - exact| in steps
     bool moved_ = false;
+    bool grid_only_ = false;
     std::vector<Tet> tets_;
     std::vector<std::array<int, 4>> neighbours_;
     std::vector<char> alive_;

@@ -52,7 +52,7 @@ bool unlock_collapse(TetComplex& mesh, int p, const WalkOptions& options, Rng& r
             return !((a == p && b == q) || (a == q && b == p));
         };
         const std::size_t mark = mesh.mark();
-        FlipWalk walk(mesh, {options.sideways, options.max_ring, 6}, rng, is_bad, may_remove);
+        FlipWalk walk(mesh, {options.sideways, options.max_ring, 6, options.wander}, rng, is_bad, may_remove);
         if (walk.run(std::move(c.bad), s.touched)) {
             s.star = mesh.star_of(p);
             if (may_collapse(mesh, s.star, p, q)) {

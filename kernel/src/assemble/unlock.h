@@ -11,6 +11,7 @@ struct WalkOptions {
     int max_bad = 8;    // give up on targets with more blocking tetrahedra
     int sideways = 4;   // flips that leave the count of blockers as it is
     int max_ring = 6;
+    int wander = 0;     // FlipWalkLimits
 };
 
 // Flips round p until a target accepts it, then collapses; else the mesh is as before.
