@@ -133,8 +133,8 @@ def _watch(arguments: argparse.Namespace, child: int, reading: int) -> int:
         return os.WEXITSTATUS(status)
     _remove_parts(arguments, child)
     if status is None or watch.asked:
-        print("cancelled", file=sys.stderr)
-        return CANCELLED
+        print("cancelled", file=sys.stderr, flush=True)
+        os._exit(CANCELLED)  # tidying up the interpreter may take longer than a user waits
     stages = _drain(reading)
     return _crashed(os.WTERMSIG(status), stages[-1] if stages else "start")
 
