@@ -3,6 +3,7 @@
 #include "tetra/notch/convex_cells.h"
 
 #include "convert.h"
+#include "tetra/solid/conform_contacts.h"
 #include "tetra/solid/snap.h"
 #include "tetra/solid/validate.h"
 
@@ -98,7 +99,7 @@ nb::dict convex_cells_arrays(const VertexArray& vertex_array, const TriangleArra
         origin = grid.grid.origin;
         std::vector<Defect> defects = find_defects(grid, p);
         if (!defects.empty()) throw InvalidSolid(std::move(defects));
-        return convex_cells(grid, vertices, chosen, p);
+        return convex_cells(conform_contacts(grid), vertices, chosen, p);
     });
     nb::dict result;
     result["report"] = to_report(cells.stats, cells.cell_solid.size(), cells.points.size(), step);

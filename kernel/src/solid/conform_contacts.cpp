@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-// Splits edges at vertices, then forces edges into the faces they lie on by exchanging diagonals.
+// Splits edges at vertices, then forces edges into the faces they lie on.
 #include "tetra/solid/conform_contacts.h"
 
 #include <algorithm>
-#include <deque>
 #include <map>
 #include <utility>
 
@@ -27,7 +26,7 @@ struct EdgeOnFace {
 };
 
 class Conformer {
-public:
+  public:
     explicit Conformer(GridSolid&& solid) : s_(std::move(solid)) {}
 
     GridSolid run() {
@@ -42,7 +41,7 @@ public:
         }
     }
 
-private:
+  private:
     const Vec3i& point(int v) const { return s_.points[static_cast<std::size_t>(v)]; }
     Triangle& triangle(int t) { return s_.triangles[static_cast<std::size_t>(t)]; }
     const Triangle& triangle(int t) const { return s_.triangles[static_cast<std::size_t>(t)]; }
@@ -63,8 +62,8 @@ private:
     };
     View view(int t) const {
         for (const View w : {View{0, 1}, View{1, 2}, View{2, 0}}) {
-            const int turn = orient2d(point(vertex(t, 0)), point(vertex(t, 1)),
-                                      point(vertex(t, 2)), w.u, w.v);
+            const int turn =
+                orient2d(point(vertex(t, 0)), point(vertex(t, 1)), point(vertex(t, 2)), w.u, w.v);
             if (turn > 0) return w;
             if (turn < 0) return {w.v, w.u};
         }
@@ -81,16 +80,16 @@ private:
             if (solid(a) != solid(b)) return;
             note(a, b);
             note(b, a);
+            refuse_crossing(a, b);
         });
-        for (auto unique = [](auto& list) {
-                 std::sort(list.begin(), list.end());
-                 list.erase(std::unique(list.begin(), list.end()), list.end());
-             };
-             true;) {
-            unique(on_edges_);
-            unique(on_faces_);
-            return;
-        }
+        sort_unique(on_edges_);
+        sort_unique(on_faces_);
+    }
+
+    template <class Item>
+    static void sort_unique(std::vector<Item>& list) {
+        std::sort(list.begin(), list.end());
+        list.erase(std::unique(list.begin(), list.end()), list.end());
     }
 
     // What of triangle b lies on triangle a.
@@ -109,6 +108,31 @@ private:
             if (on[static_cast<std::size_t>((i + 1) % 3)])
                 note_edge(a, vertex(b, i), vertex(b, i + 1), w);
         }
+    }
+
+    bool in_plane(int t, int u, int v) const { return side(t, u) == 0 && side(t, v) == 0; }
+
+    // Edges that cross in a point inside both, neither in the plane of the other's triangle.
+    void refuse_crossing(int a, int b) const {
+        for (int i = 0; i < 3; ++i)
+            for (int j = 0; j < 3; ++j) {
+                const int u = vertex(a, i), v = vertex(a, i + 1), x = vertex(b, j),
+                          y = vertex(b, j + 1);
+                if (u == x || u == y || v == x || v == y) continue;
+                if (!spans_touch(point(u), point(v), point(x), point(y))) continue;
+                if (orient3d(point(u), point(v), point(x), point(y)) != 0) continue;
+                if (in_plane(a, x, y) || in_plane(b, u, v)) continue;
+                for (const View w : {View{0, 1}, View{1, 2}, View{2, 0}})
+                    if (crosses(w, u, v, x, y)) refuse(x, y, {u, v, a});
+            }
+    }
+
+    static bool spans_touch(const Vec3i& p, const Vec3i& q, const Vec3i& r, const Vec3i& s) {
+        for (std::size_t k = 0; k < 3; ++k)
+            if (std::max(p[k], q[k]) < std::min(r[k], s[k]) ||
+                std::max(r[k], s[k]) < std::min(p[k], q[k]))
+                return false;
+        return true;
     }
 
     void note_vertex(int a, int v, View w) {
@@ -150,7 +174,7 @@ private:
         const int count = static_cast<int>(s_.triangles.size());
         for (int t = 0; t < count; ++t)
             for (int i = 0; i < 3; ++i) {
-                const auto [low, high] = std::minmax(vertex(t, i), vertex(t, i + 1));
+                const auto [low, high] = std::minmax({vertex(t, i), vertex(t, i + 1)});
                 const std::array<int, 3> key{solid(t), low, high};
                 if (vertex_of.contains(key)) users[key].push_back({t, i});
             }
@@ -172,19 +196,25 @@ private:
 
     void insert_edges() {
         index_edges();
-        std::vector<EdgeOnFace> todo = on_faces_;
-        for (const EdgeOnFace& c : todo) {
-            // Earlier insertions may have changed this face: the next round sees what is left.
-            const View w = view(c.face);
-            on_faces_.clear();
-            if (side(c.face, c.u) != 0 || side(c.face, c.w) != 0) continue;
-            note_edge(c.face, c.u, c.w, w);
-            if (on_faces_.empty()) continue;
-            if (const int inner = inner_end(c, w); inner >= 0)
-                split_face(c.face, inner);
-            else
-                force_edge(c, w);
-        }
+        const std::vector<EdgeOnFace> todo = on_faces_;
+        bool divided = false;
+        for (const EdgeOnFace& c : todo)
+            if (still_there(c))
+                if (const int v = inner_end(c, view(c.face)); v >= 0) {
+                    split_face(c.face, v);
+                    divided = true;
+                }
+        if (divided) return;  // ends first: the next round finds all edges between corners
+        for (const EdgeOnFace& c : todo)
+            if (still_there(c)) force_edge(c, view(c.face));
+    }
+
+    // Earlier insertions may have changed the face; what they leave comes up in the next round.
+    bool still_there(const EdgeOnFace& c) {
+        if (side(c.face, c.u) != 0 || side(c.face, c.w) != 0) return false;
+        on_faces_.clear();
+        note_edge(c.face, c.u, c.w, view(c.face));
+        return !on_faces_.empty();
     }
 
     // An end strictly inside the triangle, or -1.
@@ -216,8 +246,7 @@ private:
         for (int i = 0; i < 3; ++i) triangles_at_[{vertex(t, i), vertex(t, i + 1)}].push_back(t);
     }
     void unindex(int t) {
-        for (int i = 0; i < 3; ++i)
-            std::erase(triangles_at_[{vertex(t, i), vertex(t, i + 1)}], t);
+        for (int i = 0; i < 3; ++i) std::erase(triangles_at_[{vertex(t, i), vertex(t, i + 1)}], t);
     }
 
     // The triangle of the same solid, plane and orientation with half-edge p -> q, or -1.
@@ -237,53 +266,83 @@ private:
         return turn(w, u, v, a) * turn(w, u, v, b) < 0 && turn(w, a, b, u) * turn(w, a, b, v) < 0;
     }
 
-    // Sloan's insertion: diagonals that cross u-w are exchanged where their quad is convex.
+    // Takes out the triangles that u-w crosses and fills both sides of it.
     void force_edge(const EdgeOnFace& c, View w) {
-        std::deque<std::pair<int, int>> crossed;
-        for (int i = 0; i < 3; ++i) {
-            const int a = vertex(c.face, i), b = vertex(c.face, i + 1);
-            if (crosses(w, a, b, c.u, c.w)) crossed.push_back({a, b});
+        int x = -1, y = -1;
+        std::vector<int> removed, left, right;
+        removed.push_back(first_crossed(c, w, x, y));
+        right.push_back(x);
+        left.push_back(y);
+        for (;;) {
+            const int next = coplanar_at(y, x, c.face);
+            if (next < 0 || users(x, y, c.face) > 2) refuse(x, y, c);
+            removed.push_back(next);
+            const int q = apex(next, x, y);
+            if (q == c.w) break;
+            const bool is_left = turn(w, c.u, c.w, q) > 0;
+            (is_left ? left : right).push_back(q);
+            (is_left ? y : x) = q;
         }
-        std::size_t idle = 0;
-        while (!crossed.empty() && idle <= crossed.size()) {
-            const auto [a, b] = crossed.front();
-            crossed.pop_front();
-            const int t = coplanar_at(a, b, c.face), o = coplanar_at(b, a, c.face);
-            if (t < 0 || o < 0) refuse(a, b, c);
-            const int p = opposite(t, a, b), q = opposite(o, b, a);
-            if (turn(w, q, b, p) <= 0 || turn(w, p, a, q) <= 0) {
-                // Not convex at an end of the diagonal: exchange another one first.
-                add_crossed(w, c, p, a, crossed);
-                add_crossed(w, c, q, b, crossed);
-                add_crossed(w, c, b, p, crossed);
-                add_crossed(w, c, a, q, crossed);
-                crossed.push_back({a, b});
-                ++idle;
-                continue;
-            }
-            idle = 0;
-            unindex(t);
-            unindex(o);
-            triangle(t) = {p, a, q};
-            triangle(o) = {q, b, p};
-            index(t);
-            index(o);
-            return;  // one exchange at a time; the next round goes on
+        std::reverse(left.begin(), left.end());
+        std::vector<Triangle> filling;
+        fill(w, c.u, c.w, left, filling);
+        fill(w, c.w, c.u, right, filling);
+        for (const int t : removed) unindex(t);
+        for (std::size_t i = 0; i < removed.size(); ++i) {
+            triangle(removed[i]) = filling[i];
+            index(removed[i]);
         }
     }
 
-    int opposite(int t, int a, int b) const {
+    // The triangle (u, x, y) of the face whose edge x-y is crossed by u-w.
+    int first_crossed(const EdgeOnFace& c, View w, int& x, int& y) const {
+        const Plane plane = plane_of(c.face);
+        for (auto i = triangles_at_.lower_bound({c.u, -1});
+             i != triangles_at_.end() && i->first.first == c.u; ++i)
+            for (const int t : i->second) {
+                x = i->first.second;
+                y = apex(t, c.u, x);
+                if (solid(t) == solid(c.face) && plane_of(t) == plane && crosses(w, x, y, c.u, c.w))
+                    return t;
+            }
+        for (int i = 0; i < 3; ++i)
+            if (crosses(w, vertex(c.face, i), vertex(c.face, i + 1), c.u, c.w))
+                refuse(vertex(c.face, i), vertex(c.face, i + 1), c);
+        refuse(vertex(c.face, 0), vertex(c.face, 1), c);
+    }
+
+    // Triangles of the solid at an edge, on both its sides.
+    std::size_t users(int p, int q, int like) const {
+        std::size_t count = 0;
+        for (const auto& key : {std::pair{p, q}, std::pair{q, p}})
+            if (const auto found = triangles_at_.find(key); found != triangles_at_.end())
+                count += static_cast<std::size_t>(
+                    std::count_if(found->second.begin(), found->second.end(),
+                                  [&](int t) { return solid(t) == solid(like); }));
+        return count;
+    }
+
+    // Triangulates the polygon a, b, chain...: the corner nearest to a-b sees it, for all others
+    // are farther away.
+    void fill(View w, int a, int b, const std::vector<int>& chain, std::vector<Triangle>& out) {
+        if (chain.empty()) return;
+        const auto height = [&](int v) {
+            const Vec3i &p = point(a), &q = point(b), &r = point(v);
+            return static_cast<Int128>(q[w.u] - p[w.u]) * (r[w.v] - p[w.v]) -
+                   static_cast<Int128>(q[w.v] - p[w.v]) * (r[w.u] - p[w.u]);
+        };
+        const auto nearest = std::min_element(chain.begin(), chain.end(), [&](int v, int other) {
+            return height(v) < height(other);
+        });
+        out.push_back({a, b, *nearest});
+        fill(w, *nearest, b, {chain.begin(), nearest}, out);
+        fill(w, a, *nearest, {nearest + 1, chain.end()}, out);
+    }
+
+    int apex(int t, int a, int b) const {
         for (const int v : triangle(t))
             if (v != a && v != b) return v;
         return -1;
-    }
-
-    void add_crossed(View w, const EdgeOnFace& c, int a, int b,
-                     std::deque<std::pair<int, int>>& crossed) const {
-        if (!crosses(w, a, b, c.u, c.w)) return;
-        for (const auto& [p, q] : crossed)
-            if ((p == a && q == b) || (p == b && q == a)) return;
-        crossed.push_back({a, b});
     }
 
     [[noreturn]] void refuse(int a, int b, const EdgeOnFace& c) const {
@@ -293,8 +352,7 @@ private:
         for (const int v : {a, b, c.u, c.w}) d.vertices.push_back(caller(v));
         d.triangles = {s_.triangle_source[static_cast<std::size_t>(c.face)]};
         d.message = "edge " + std::to_string(caller(a)) + "-" + std::to_string(caller(b)) +
-                    " and edge " + std::to_string(caller(c.u)) + "-" +
-                    std::to_string(caller(c.w)) +
+                    " and edge " + std::to_string(caller(c.u)) + "-" + std::to_string(caller(c.w)) +
                     " cross without a common vertex; divide both where they meet";
         throw InvalidSolid({d});
     }
