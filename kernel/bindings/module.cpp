@@ -11,7 +11,7 @@ void bind_errors(nb::module_& m);
 void bind_polygon(nb::module_& m);
 void bind_tets(nb::module_& m);
 void bind_validate(nb::module_& m);
-}
+}  // namespace tetra::python
 
 NB_MODULE(_tetra_kernel, m) {
     m.doc() = "Exact decomposition of solids; use it through the package freecad_tetra.";
