@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <set>
 
 #include "assemble_compact_support.h"
 #include "tetra/assemble/compact.h"
@@ -174,8 +175,14 @@ TEST(Restore, BetweenTwoFacesNothingIsPeeled) {
     Progress progress;
     const Restored restored = restore(r.mesh, r.solid, vertices, faces, {}, progress);
     EXPECT_EQ(restored.stats.peeled, 0);
-    EXPECT_GT(restored.stats.vertices_on_grid, 0);
-    EXPECT_EQ(restored.stats.left.size(), at(restored.stats.vertices_on_grid));
+    EXPECT_EQ(restored.stats.vertices_on_grid, 0);
+    EXPECT_GT(restored.stats.walks, 0);
+    EXPECT_EQ(r.mesh.skin.size(), r.solid.triangles.size());
+    for (std::size_t k = 0; k < r.mesh.skin.size(); ++k) {
+        std::set<int> corners(r.mesh.skin[k].begin(), r.mesh.skin[k].end());
+        const Triangle& source = r.solid.triangles[at(r.mesh.skin_source[k])];
+        EXPECT_EQ(corners, std::set<int>(source.begin(), source.end()));
+    }
     expect_verified(r.mesh, r.solid, vertices, restored);
 }
 

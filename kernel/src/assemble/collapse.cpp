@@ -39,7 +39,7 @@ void all_neighbours(const TetComplex& mesh, int p, CollapseScratch& s) {
     s.targets.erase(last, s.targets.end());
 }
 
-void skin_neighbours(const TetComplex& mesh, CarrierKind kind, CollapseScratch& s) {
+void skin_neighbours(const TetComplex& mesh, CollapseScratch& s) {
     std::array<std::array<std::size_t, 2>, 2> sharp;
     std::size_t sharp_count = 0;
     bool one_plane = true;
@@ -58,10 +58,10 @@ void skin_neighbours(const TetComplex& mesh, CarrierKind kind, CollapseScratch& 
         s.targets.push_back({s.skin[i][0], 0});
         i = j;
     }
-    if (kind == CarrierKind::facet && sharp_count == 0 && one_plane) return;
+    if (sharp_count == 0 && one_plane) return;
     s.targets.clear();
     // Two sharp edges between the same facets: p lies inside a straight edge.
-    if (kind == CarrierKind::edge && sharp_count == 2 && same_classes(s.skin, sharp[0], sharp[1]))
+    if (sharp_count == 2 && same_classes(s.skin, sharp[0], sharp[1]))
         s.targets = {{s.skin[sharp[0][0]][0], 0}, {s.skin[sharp[1][0]][0], 0}};
 }
 
@@ -82,10 +82,10 @@ void find_targets(TetComplex& mesh, int p, CollapseScratch& s) {
         }
     }
     std::sort(s.skin.begin(), s.skin.end());
-    if (s.skin.empty() && mesh.carrier(p).kind == CarrierKind::inner)
+    if (s.skin.empty())
         all_neighbours(mesh, p, s);
-    else if (!s.skin.empty())
-        skin_neighbours(mesh, mesh.carrier(p).kind, s);
+    else
+        skin_neighbours(mesh, s);
     for (Target& target : s.targets)
         for (int t : s.star) target.killed += TetComplex::contains(mesh.tet(t), target.point);
     std::stable_sort(s.targets.begin(), s.targets.end(),

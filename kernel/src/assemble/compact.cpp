@@ -6,7 +6,7 @@
 #include <chrono>
 
 #include "collapse.h"
-#include "flip_walk.h"
+#include "sweeps.h"
 #include "tet_complex.h"
 #include "unlock.h"
 
@@ -20,7 +20,8 @@ std::size_t at(int i) { return static_cast<std::size_t>(i); }
 class Compactor {
 public:
     Compactor(TetComplex& mesh, const CompactOptions& options, Progress& progress)
-        : mesh_(mesh), options_(options), progress_(progress), rng_{options.seed} {
+        : mesh_(mesh), options_(options), progress_(progress), rng_{options.seed},
+          sweep_{mesh, rng_, progress, &dirty_, 0} {
         dirty_.assign(at(mesh.point_count()), 1);
         gone_.assign(at(mesh.point_count()), 0);
         for (const CarrierKind kind : {CarrierKind::edge, CarrierKind::facet, CarrierKind::inner})
@@ -31,7 +32,7 @@ public:
     CompactStats run() {
         const auto start = std::chrono::steady_clock::now();
         collapse_all();
-        reduce_all();
+        reduce_all(sweep_);
         if (options_.level == CompactLevel::max) {
             run_max(start);
         } else {
@@ -40,10 +41,11 @@ public:
             // Few points are left: longer walks for them cost little.
             for (int round = 0; round < 2; ++round)
                 if (unlock_all({4, 12, 12, 7, 2}) == 0) break;
-            reduce_all();
-            for (int sweep = 0; sweep < 2; ++sweep) neutral_sweep();
+            reduce_all(sweep_);
+            for (int sweep = 0; sweep < 2; ++sweep) neutral_sweep(sweep_);
         }
-        reduce_all();
+        reduce_all(sweep_);
+        stats_.reducing_flips = sweep_.reducing;
         return stats_;
     }
 
@@ -58,8 +60,8 @@ private:
             walk.sideways = round == 0 ? 4 : 25;
             std::fill(dirty_.begin(), dirty_.end(), 1);
             const int moved = unlock_all(walk);
-            reduce_all();
-            for (int sweep = 0; sweep < 4; ++sweep) neutral_sweep();
+            reduce_all(sweep_);
+            for (int sweep = 0; sweep < 4; ++sweep) neutral_sweep(sweep_);
             ++stats_.rounds;
             if (round > 2 && moved == 0 && mesh_.tet_count() == before) break;
             const std::chrono::duration<double> spent = std::chrono::steady_clock::now() - start;
@@ -112,74 +114,12 @@ private:
         return moved;
     }
 
-    bool reduce_at(int t) {
-        for (const auto& e : kTetEdges) {
-            Ring ring;
-            if (!find_ring(mesh_, t, e[0], e[1], 3, ring) || ring.open || ring.size != 3) continue;
-            Flip flip;
-            if (!propose_edge_flip(mesh_, ring, [](const Tet&) { return 0.0; }, flip)) continue;
-            mesh_.apply(flip);
-            ++stats_.reducing_flips;
-            for (const Tet& v : flip.added())
-                for (int p : v) dirty_[at(p)] = 1;
-            return true;
-        }
-        return false;
-    }
-
-    // 3-2 wherever it goes; new tetrahedra come at the end and are looked at too.
-    void reduce_all() {
-        for (int t = 0; t < mesh_.id_count(); ++t) {
-            progress_.poll("compact", 0.7);
-            if (mesh_.alive(t)) reduce_at(t);
-        }
-        mesh_.forget();
-    }
-
-    // 4-4 and 2-2 at random; kept when a 3-2 follows, else by a coin (COMPACT.md A4).
-    void neutral_sweep() {
-        const int end = mesh_.id_count();
-        for (int t = 0; t < end; ++t) {
-            progress_.poll("compact", 0.8);
-            if (mesh_.alive(t)) neutral_at(t);
-        }
-        mesh_.forget();
-    }
-
-    void neutral_at(int t) {
-        const int first = rng_.below(6);
-        for (int k = 0; k < 6; ++k) {
-            const auto& e = kTetEdges[(first + k) % 6];
-            Ring ring;
-            if (!find_ring(mesh_, t, e[0], e[1], 4, ring)) continue;
-            if (ring.open ? ring.size != 2 || ring.first_class != ring.last_class
-                          : ring.size != 4)
-                continue;
-            Flip flip;
-            const auto coin = [&](const Tet&) { return static_cast<double>(rng_.next() >> 60); };
-            if (!propose_edge_flip(mesh_, ring, coin, flip)) continue;
-            if (ring.open && !may_open_flip(mesh_, ring)) continue;
-            const std::size_t mark = mesh_.mark();
-            const int fresh = mesh_.id_count();
-            mesh_.apply(flip);
-            bool reduced = false;
-            for (int n = fresh; n < mesh_.id_count(); ++n)
-                if (mesh_.alive(n)) reduced = reduce_at(n) || reduced;
-            if (!reduced && (rng_.next() & 1)) {
-                mesh_.undo_to(mark);
-                continue;
-            }
-            for (const Tet& v : flip.added())
-                for (int p : v) dirty_[at(p)] = 1;
-            return;
-        }
-    }
-
     TetComplex& mesh_;
     CompactOptions options_;
     Progress& progress_;
     Rng rng_;
     CompactStats stats_;
+    Sweep sweep_;
     CollapseScratch scratch_;
     std::vector<char> dirty_;    // per point: its star changed since its last try
     std::vector<char> gone_;     // per point: collapsed

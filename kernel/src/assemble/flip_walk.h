@@ -74,19 +74,28 @@ private:
         return false;
     }
 
-    // A random flip in the star of a random corner of a blocker that does not raise the count.
+    // A random flip near a blocker that does not raise the count.
     bool wander() {
         for (int k = 0; k < limits_.wander; ++k) {
             const int bad = bad_[static_cast<std::size_t>(rng_.below(static_cast<int>(bad_.size())))];
-            const int corner = mesh_.tet(bad)[static_cast<std::size_t>(rng_.below(4))];
-            const std::vector<int>& star = mesh_.star_of(corner);
-            const int t = star[static_cast<std::size_t>(rng_.below(static_cast<int>(star.size())))];
+            const int t = nearby(bad);
             Flip flip;
             if (!propose(t, rng_.below(10), flip) || rise(flip) > 0) continue;
             commit(flip);
             return true;
         }
         return false;
+    }
+
+    // A neighbour of a tetrahedron, or one that shares a corner with it.
+    int nearby(int bad) {
+        if (rng_.next() & 1) {
+            const int code = mesh_.neighbour(bad, rng_.below(4));
+            if (code >= 0) return code / 4;
+        }
+        const int corner = mesh_.tet(bad)[static_cast<std::size_t>(rng_.below(4))];
+        const std::vector<int>& star = mesh_.star_of(corner);
+        return star[static_cast<std::size_t>(rng_.below(static_cast<int>(star.size())))];
     }
 
     bool propose(int t, int op, Flip& flip) {

@@ -60,13 +60,6 @@ bool may_peel(TetComplex& mesh, int t, const std::vector<Vec3d>& places) {
             inner[inners++] = i;
         }
     }
-    // The new skin may not leave a neighbour with three skin faces: nothing could free its tip.
-    for (int i : inner) {
-        const int below = mesh.neighbour(t, i) / 4;
-        int skin_faces = 1;
-        for (int k = 0; k < 4; ++k) skin_faces += mesh.neighbour(below, k) < 0;
-        if (skin_faces > 2) return false;
-    }
     const FacetClass& one = mesh.facet_class(~mesh.neighbour(t, skin[0]));
     const FacetClass& two = mesh.facet_class(~mesh.neighbour(t, skin[1]));
     if (one.face != two.face) return false;
@@ -76,8 +69,18 @@ bool may_peel(TetComplex& mesh, int t, const std::vector<Vec3d>& places) {
         caller[k] = places[at(v[k])];
         grid[k] = mesh.grid_place(v[k]);
     }
-    const double height = std::fabs(least_height(caller[0], caller[1], caller[2], caller[3]));
-    if (height >= 1e-3 * mesh.grid().step) return false;
+    const auto flat = [&](const Tet& u) {
+        return std::fabs(least_height(places[at(u[0])], places[at(u[1])], places[at(u[2])],
+                                      places[at(u[3])])) < 1e-3 * mesh.grid().step;
+    };
+    if (!flat(v)) return false;
+    // A flat neighbour with three skin faces would be left: nothing could free its tip.
+    for (int i : inner) {
+        const int below = mesh.neighbour(t, i) / 4;
+        int skin_faces = 1;
+        for (int k = 0; k < 4; ++k) skin_faces += mesh.neighbour(below, k) < 0;
+        if (skin_faces > 2 && flat(mesh.tet(below))) return false;
+    }
     if (!same_area(caller, skin, inner, 1e-9) || !same_area(grid, skin, inner, 1e-4)) return false;
     // The skin faces miss one corner each: these two corners make the new edge.
     return !on_skin(mesh, v[at(skin[0])], v[at(skin[1])]);

@@ -12,6 +12,7 @@
 #include "flip_walk.h"
 #include "peel.h"
 #include "restore_targets.h"
+#include "sweeps.h"
 #include "tet_complex.h"
 #include "tetra/assemble/tet_quality.h"
 #include "tetra/errors.h"
@@ -26,10 +27,10 @@ constexpr double kSliver = 1e-6;  // grid steps of height below which a flip is 
 
 class Restorer {
 public:
-    Restorer(TetComplex& mesh, RestoreTargets targets, const RestoreOptions& options,
+    Restorer(TetComplex& mesh, RestoreTargets targets, const RestoreOptions& options, Rng& rng,
              Progress& progress)
         : mesh_(mesh), targets_(std::move(targets)), options_(options), progress_(progress),
-          rng_{options.seed}, home_(at(mesh.point_count())), moved_(targets_.bound.size(), 1) {
+          rng_(rng), home_(at(mesh.point_count())), moved_(targets_.bound.size(), 1) {
         for (int p = 0; p < mesh.point_count(); ++p) home_[at(p)] = mesh.place(p);
     }
 
@@ -251,10 +252,10 @@ private:
     }
 
     bool unblock(int p) {
-        if (move_if_free(p) || walk({p}, 0)) return true;
+        if (move_if_free(p) || walk({p}, 0) || peel_at(p)) return true;
         const std::vector<int> group = group_of(p);
         if (group.size() > 1 && walk(group, 0)) return true;
-        if (peel_at(p) || collapse_near(p)) return true;
+        if (collapse_near(p)) return true;
         // The last chance is worth longer walks and more of them.
         const bool last = floor_ == 0;
         for (int k = 0; k < (last ? 5 : 1) * options_.walks; ++k) {
@@ -330,7 +331,7 @@ private:
     RestoreTargets targets_;
     RestoreOptions options_;
     Progress& progress_;
-    Rng rng_;
+    Rng& rng_;
     std::vector<Vec3d> home_;  // the grid's places
     std::vector<char> moved_;  // at its target
     RestoreStats stats_;
@@ -380,27 +381,60 @@ void refine_sources(ExactMesh& mesh, const GridSolid& solid, const std::vector<i
         }
 }
 
+struct Model {
+    const GridSolid& solid;
+    const FacetClasses& classes;
+    const std::vector<Vec3d>& vertices;
+};
+
+int misplaced(const RestoreStats& s) { return s.vertices_on_grid + s.steiner_on_grid; }
+
+// What blocks a vertex is a matter of luck: a later attempt starts from other diagonals.
+Restored attempt_restore(const ExactMesh& mesh, ExactMesh& result, const Model& model,
+                         const RestoreOptions& options, int attempt, Progress& progress) {
+    TetComplex complex(mesh, model.solid.grid, model.classes);
+    Rng rng{options.seed + static_cast<std::uint64_t>(attempt)};
+    Sweep sweep{complex, rng, progress, nullptr, 0};
+    for (int k = 0; k < std::min(attempt, 3); ++k) neutral_sweep(sweep);
+    Restorer restorer(complex,
+                      restore_targets(complex, model.solid, model.classes, model.vertices), options,
+                      rng, progress);
+    Restored out;
+    out.stats = restorer.run();
+    if (options.quality_below > 0) restorer.improve(options.quality_below);
+    out.stats.quality_flips = restorer.quality_flips();
+    restorer.count(out.stats);
+    for (int& v : out.stats.left) v = model.solid.point_source[at(v)];
+    complex.write_back(result, &out.points);
+    out.facet_of_triangle = joined_facets(model.classes, complex.peeled_pairs());
+    refine_sources(result, model.solid, out.facet_of_triangle);
+    return out;
+}
+
 }  // namespace
 
 Restored restore(ExactMesh& mesh, const GridSolid& solid, const std::vector<Vec3d>& vertices,
                  std::span<const int> faces, const RestoreOptions& options, Progress& progress) {
     const auto start = std::chrono::steady_clock::now();
     const FacetClasses classes = facet_classes(solid, faces);
-    TetComplex complex(mesh, solid.grid, classes);
-    Restorer restorer(complex, restore_targets(complex, solid, classes, vertices), options,
-                      progress);
-    Restored out;
-    out.stats = restorer.run();
-    if (options.quality_below > 0) restorer.improve(options.quality_below);
-    out.stats.quality_flips = restorer.quality_flips();
-    restorer.count(out.stats);
-    for (int& v : out.stats.left) v = solid.point_source[at(v)];
-    complex.write_back(mesh, &out.points);
-    out.facet_of_triangle = joined_facets(classes, complex.peeled_pairs());
-    refine_sources(mesh, solid, out.facet_of_triangle);
-    out.stats.seconds =
+    Restored best;
+    ExactMesh best_mesh;
+    for (int attempt = 0; attempt < std::max(1, options.attempts); ++attempt) {
+        ExactMesh result;
+        Restored now = attempt_restore(mesh, result, {solid, classes, vertices}, options, attempt,
+                                       progress);
+        const bool better = attempt == 0 || misplaced(now.stats) < misplaced(best.stats);
+        if (better) {
+            best = std::move(now);
+            best_mesh = std::move(result);
+        }
+        best.stats.attempts = attempt + 1;
+        if (misplaced(best.stats) == 0) break;
+    }
+    mesh = std::move(best_mesh);
+    best.stats.seconds =
         std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-    return out;
+    return best;
 }
 
 }  // namespace tetra

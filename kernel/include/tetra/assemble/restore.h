@@ -15,10 +15,12 @@ namespace tetra {
 struct RestoreOptions {
     std::uint64_t seed = 1;
     int walks = 40;              // random walks per vertex that stays blocked
+    int attempts = 8;            // runs, each from a mesh shaken by more flips, until none is left
     double quality_below = 0;    // flip away tetrahedra of lower mean ratio; 0 = leave them
 };
 
 struct RestoreStats {
+    int attempts = 0;
     int input_vertices = 0;      // grid points of the solid that are in the mesh
     int vertices_on_grid = 0;    // of these, not at the caller's coordinates in the end
     int steiner_points = 0;
