@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "pieces.h"
+#include "tetra/errors.h"
 
 namespace tetra::notch {
 namespace {
@@ -42,6 +43,7 @@ class Surgeon {
         link_corners();
         add_caps();
         pair_plane_edges();
+        close_caps_of_no_width();
         clean();
         return split_pieces(points_, edges_, piece_.edges, work_);
     }
@@ -193,6 +195,39 @@ class Surgeon {
         }
     }
 
+    // Caps of no width vanish, and the facets beside them come together in the pairs that
+    // enclose solid.
+    void close_caps_of_no_width() {
+        for (std::size_t i = 0; i < section_.segments.size(); ++i) {
+            if (!section_.used[i] || !section_.segments[i].no_width) continue;
+            if (edges_.alive(cuts_[i].cap_below)) close_cap(cuts_[i].cap_below);
+            if (edges_.alive(cuts_[i].cap_above)) close_cap(cuts_[i].cap_above);
+        }
+    }
+
+    // Folds a cap that runs to and fro on a line: every edge meets the one that runs back.
+    void close_cap(int first) {
+        std::vector<int> open;
+        int h = first;
+        do {
+            const int next = edges_[h].next;
+            if (!open.empty() && edges_[open.back()].org == edges_[next].org) {
+                const int a = edges_[open.back()].twin, b = edges_[h].twin;
+                edges_.pair(a, b);
+                folded_.push_back(a);
+                used_up_.push_back(open.back());
+                used_up_.push_back(h);
+                open.pop_back();
+            } else {
+                open.push_back(h);
+            }
+            h = next;
+        } while (h != first);
+        if (!open.empty()) throw VerificationFailed("notch cutting: a cap does not fold");
+        for (const int u : used_up_) edges_.remove(u);
+        used_up_.clear();
+    }
+
     // Dissolves edges between facets of one key, then straightens what that leaves behind.
     void clean() {
         std::vector<int> touched;
@@ -203,6 +238,10 @@ class Surgeon {
                 touched.push_back(h);
                 touched.push_back(edges_[h].twin);
             }
+        }
+        for (const int h : folded_) {
+            touched.push_back(h);
+            touched.push_back(edges_[h].twin);
         }
         const std::size_t caps = touched.size();
         for (std::size_t i = 0; i < caps; ++i) {
@@ -223,6 +262,7 @@ class Surgeon {
     std::vector<Cut> cuts_;
     std::vector<Crossing> crossings_;
     std::vector<Opening> openings_;
+    std::vector<int> folded_, used_up_;  // half-edges paired across vanished caps; those caps
 };
 
 }  // namespace

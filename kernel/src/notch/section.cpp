@@ -347,23 +347,76 @@ class Tracer {
         }
     }
 
+    Direction towards(const Ray& r) const {
+        Direction d = section_.segments[r.segment].direction;
+        if (!r.leaving)
+            for (Int128& c : d) c = -c;
+        return d;
+    }
+
+    // Sign of the angle from b to a, counter-clockwise from the frame's first axis.
+    int compare_angle(const Ray& a, const Ray& b) const {
+        const Direction p = towards(a), q = towards(b);
+        const int hp = half_plane(frame_, p), hq = half_plane(frame_, q);
+        return hp != hq ? hp - hq : -turn_on_plane(frame_, p, q);
+    }
+
     void sort_by_angle(std::size_t from, std::size_t to) {
-        const auto towards = [&](const Ray& r) {
-            Direction d = section_.segments[r.segment].direction;
-            if (!r.leaving)
-                for (Int128& c : d) c = -c;
-            return d;
-        };
-        std::sort(rays_.begin() + static_cast<std::ptrdiff_t>(from),
-                  rays_.begin() + static_cast<std::ptrdiff_t>(to), [&](const Ray& a, const Ray& b) {
-                      const Direction p = towards(a), q = towards(b);
-                      const int hp = half_plane(frame_, p), hq = half_plane(frame_, q);
-                      if (hp != hq) return hp < hq;
-                      const int turn = turn_on_plane(frame_, p, q);
-                      if (turn != 0) return turn > 0;
-                      if (a.leaving != b.leaving) return a.leaving < b.leaving;
-                      return a.segment < b.segment;
-                  });
+        const auto first = rays_.begin() + static_cast<std::ptrdiff_t>(from);
+        const auto last = rays_.begin() + static_cast<std::ptrdiff_t>(to);
+        std::sort(first, last, [&](const Ray& a, const Ray& b) {
+            const int c = compare_angle(a, b);
+            if (c != 0) return c < 0;
+            if (a.leaving != b.leaving) return a.leaving < b.leaving;
+            return a.segment < b.segment;
+        });
+        order_ties(from, to);
+    }
+
+    // Rays of one direction: within Q one sector ends and the next begins; outside of Q two
+    // sheets of the surface touch there, and what lies between them is a sector of no width.
+    void order_ties(std::size_t from, std::size_t to) {
+        const std::size_t count = to - from;
+        std::vector<std::size_t> group(count + 1, count);  // starts of groups
+        std::size_t groups = 0, alone = count;
+        for (std::size_t k = 0; k < count; ++k)
+            if (k == 0 || compare_angle(rays_[from + k - 1], rays_[from + k]) != 0)
+                group[groups++] = k;
+        group[groups] = count;
+        for (std::size_t g = 0; g < groups && alone == count; ++g)
+            if (group[g + 1] - group[g] == 1) alone = g;
+        if (groups == count || alone == count) return;
+        bool inside = rays_[from + group[alone]].leaving;
+        for (std::size_t i = 1; i < groups; ++i) {
+            const std::size_t g = (alone + i) % groups;
+            interleave(from + group[g], from + group[g + 1], inside);
+            inside = rays_[from + group[g + 1] - 1].leaving;
+        }
+    }
+
+    // Ends and starts in turn, an end first when inside. Between the two sides of an across edge
+    // there is only its own notch: they stay together, and where there is Q around them.
+    void interleave(std::size_t from, std::size_t to, bool inside) {
+        std::vector<Ray> ends, starts, across, ordered;
+        for (std::size_t k = from; k < to; ++k) {
+            const Ray& r = rays_[k];
+            const int mate = section_.segments[r.segment].mate;
+            if (mate < 0)
+                (r.leaving ? starts : ends).push_back(r);
+            else if (!r.leaving)
+                across.insert(across.end(), {r, {r.point, mate, true}});
+        }
+        std::size_t e = 0, s = 0;
+        if (!inside && !starts.empty()) ordered.push_back(starts[s++]);
+        ordered.insert(ordered.end(), across.begin(), across.end());
+        inside |= s > 0;
+        while (e < ends.size() || s < starts.size()) {
+            const bool take_end = s == starts.size() || (inside && e < ends.size());
+            ordered.push_back(take_end ? ends[e++] : starts[s++]);
+            inside = !take_end;
+        }
+        std::copy(ordered.begin(), ordered.end(),
+                  rays_.begin() + static_cast<std::ptrdiff_t>(from));
     }
 
     void pair_sectors(std::size_t from, std::size_t to) {

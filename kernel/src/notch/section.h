@@ -45,6 +45,7 @@ struct Segment {
     int mate = -1;              // the segment of the twin when Q is on both sides
     int next = -1;
     int cycle = -1;
+    bool no_width = false;  // its cycle runs to and fro on one line
     Direction direction{};
 };
 

@@ -14,6 +14,7 @@ class Selector {
 
     void run(Extent extent, const std::vector<char>& own) {
         find_cycles();
+        find_cycles_of_no_width();
         parent_.resize(first_.size());
         std::iota(parent_.begin(), parent_.end(), 0);
         if (first_.size() > 1 && extent != Extent::whole_plane) {
@@ -45,6 +46,26 @@ class Selector {
         }
     }
 
+    // Where an edge touches a facet from inside, Q has a part that runs to and fro on one line.
+    // An across edge alone does so too, but there Q lies around it.
+    void find_cycles_of_no_width() {
+        for (const int first : first_) {
+            bool straight = true, alone = false;
+            int s = first;
+            do {
+                const Segment& g = section_.segments[s];
+                alone |= g.mate < 0;
+                s = g.next;
+                straight &= turn_on_plane(frame_, g.direction, section_.segments[s].direction) == 0;
+            } while (s != first && straight);
+            if (!straight || !alone) continue;
+            do {
+                section_.segments[s].no_width = true;
+                s = section_.segments[s].next;
+            } while (s != first);
+        }
+    }
+
     int compare(int a, int b) const {
         const int u = (frame_.axis + 1) % 3, v = (frame_.axis + 2) % 3;
         const int x = points_.compare(a, b, u);
@@ -60,6 +81,7 @@ class Selector {
             if (compare(p, least) < 0) least = p;
             s = section_.segments[s].next;
         } while (s != first_[cycle]);
+        if (section_.segments[s].no_width) return false;
         bool hole = false;
         do {
             const Segment& arriving = section_.segments[s];
