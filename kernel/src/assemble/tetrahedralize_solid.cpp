@@ -27,7 +27,10 @@ int imperfection(const SolidTets& tets) {
 
 // How many imperfect meshes are made before the best of them is taken: it is luck, which is cheap
 // for small solids.
-int most_imperfect(const GridSolid& solid) { return solid.triangles.size() < 10000 ? 20 : 6; }
+int most_imperfect(const GridSolid& solid) {
+    const std::size_t size = solid.triangles.size();
+    return size < 10000 ? 20 : (size < 100000 ? 6 : 2);
+}
 constexpr int kOtherSeeds = 10;
 
 class SolidWorker {
