@@ -21,6 +21,7 @@ import os
 import platform
 import re
 import resource
+import signal
 import subprocess
 import sys
 import tempfile
@@ -62,7 +63,7 @@ def timed(command: list[str], limit: float) -> tuple[dict[str, Any], str]:
     seconds = after.ru_utime + after.ru_stime - before.ru_utime - before.ru_stime
     if done.returncode == 0:
         status = "ok"
-    elif seconds >= math.ceil(limit) - 0.5:
+    elif done.returncode in (-signal.SIGXCPU, -signal.SIGKILL):
         status = f"over {limit:g} s"
     else:
         status = f"exit {done.returncode}"
