@@ -81,6 +81,19 @@ TEST(ConformContacts, EdgeAcrossADiagonal) {
     expect_conforming(solid, 1);
 }
 
+TEST(ConformContacts, FacesInContactAreGlued) {
+    TestSolid solid;  // found by tools/fuzz_cells.py: triangles 3, 1, 2 and 4, 2, 1 overlap
+    solid.points = {{0, 0, 0}, {1, 1, 3}, {2, 0, 1}, {2, 0, 2}, {2, 0, 3}, {2, 1, 0}};
+    solid.triangles = {{0, 5, 2}, {5, 3, 2}, {5, 0, 1}, {0, 4, 1},
+                       {5, 1, 3}, {0, 2, 4}, {1, 2, 3}, {4, 2, 1}};
+    const GridSolid result = conform_contacts(grid_solid(solid));
+    EXPECT_EQ(volume6(solid_of(result)), volume6(solid));
+    Progress quiet;
+    EXPECT_TRUE(find_defects(result, quiet).empty());
+    EXPECT_LT(result.triangles.size(), solid.triangles.size() + 2);
+    EXPECT_EQ(pair_half_edges(result.points, result.triangles, result.solid).type2_edges, 0);
+}
+
 TEST(ConformContacts, CrossingEdgesAreRefused) {
     TestSolid tent;
     tent.points = {{0, -4, 0}, {8, -4, 0}, {8, 4, 0}, {0, 4, 0}, {0, 0, 4}, {8, 0, 4}};

@@ -32,12 +32,15 @@ class Conformer {
     GridSolid run() {
         for (;;) {
             find_contacts();
-            if (!on_edges_.empty())
+            if (!on_edges_.empty()) {
                 split_edges();
-            else if (!on_faces_.empty())
+            } else if (!on_faces_.empty()) {
                 insert_edges();
-            else
+            } else {
+                if (changed_) close_gaps();
                 return std::move(s_);
+            }
+            changed_ = true;
         }
     }
 
@@ -217,6 +220,33 @@ class Conformer {
         return !on_faces_.empty();
     }
 
+    // Faces in contact now consist of opposite equal triangles: the gap between them is nothing.
+    void close_gaps() {
+        std::map<std::array<int, 4>, std::array<std::vector<int>, 2>> sides;
+        const int count = static_cast<int>(s_.triangles.size());
+        for (int t = 0; t < count; ++t) {
+            Triangle k = triangle(t);
+            std::rotate(k.begin(), std::min_element(k.begin(), k.end()), k.end());
+            const bool odd = k[1] > k[2];
+            if (odd) std::swap(k[1], k[2]);
+            sides[{solid(t), k[0], k[1], k[2]}][odd].push_back(t);
+        }
+        std::vector<char> gone(static_cast<std::size_t>(count));
+        for (const auto& [key, lists] : sides)
+            for (std::size_t i = 0; i < std::min(lists[0].size(), lists[1].size()); ++i)
+                for (const auto& list : lists) gone[static_cast<std::size_t>(list[i])] = 1;
+        std::size_t kept = 0;
+        for (std::size_t t = 0; t < gone.size(); ++t) {
+            if (gone[t]) continue;
+            s_.triangles[kept] = s_.triangles[t];
+            s_.triangle_source[kept] = s_.triangle_source[t];
+            s_.solid[kept++] = s_.solid[t];
+        }
+        s_.triangles.resize(kept);
+        s_.triangle_source.resize(kept);
+        s_.solid.resize(kept);
+    }
+
     // An end strictly inside the triangle, or -1.
     int inner_end(const EdgeOnFace& c, View w) const {
         for (const int v : {c.u, c.w}) {
@@ -358,6 +388,7 @@ class Conformer {
     }
 
     GridSolid s_;
+    bool changed_ = false;
     std::vector<VertexOnEdge> on_edges_;
     std::vector<EdgeOnFace> on_faces_;
     std::map<std::pair<int, int>, std::vector<int>> triangles_at_;
