@@ -429,7 +429,8 @@ Restored restore(ExactMesh& mesh, const GridSolid& solid, const std::vector<Vec3
             best_mesh = std::move(result);
         }
         best.stats.attempts = attempt + 1;
-        if (misplaced(best.stats) == 0) break;
+        // Where many are left, luck is not what is missing.
+        if (misplaced(best.stats) == 0 || (misplaced(best.stats) > 3 && attempt == 1)) break;
     }
     mesh = std::move(best_mesh);
     best.stats.seconds =

@@ -4,6 +4,8 @@
 
 #include <algorithm>
 #include <limits>
+#include <unordered_set>
+#include <utility>
 
 namespace tetra {
 namespace {
@@ -24,8 +26,21 @@ class Locator {
 public:
     Locator(const GridSolid& solid, const FacetClasses& classes, const std::vector<Vec3d>& vertices)
         : solid_(solid), classes_(classes), vertices_(vertices), members_(classes.classes.size()) {
-        for (std::size_t k = 0; k < classes.of_triangle.size(); ++k)
+        for (std::size_t k = 0; k < classes.of_triangle.size(); ++k) {
             members_[at(classes.of_triangle[k])].push_back(static_cast<int>(k));
+            const Triangle& t = solid.triangles[k];
+            for (std::size_t i = 0; i < 3; ++i) edges_.insert(key(t[i], t[(i + 1) % 3]));
+        }
+    }
+
+    bool is_edge(int a, int b) const { return edges_.count(key(a, b)) || edges_.count(key(b, a)); }
+
+    // Where p is on the surface edge from a to b.
+    Vec3d between(const Vec3d& p, int a, int b) const {
+        if (a > b) std::swap(a, b);  // the same image whatever the order
+        const Vec3d pa = corner(a), ab = minus(corner(b), pa);
+        const double t = std::clamp(dot(minus(p, pa), ab) / dot(ab, ab), 0.0, 1.0);
+        return blend(caller(a), 1, minus(caller(b), caller(a)), t);
     }
 
     const Vec3d& caller(int grid_point) const {
@@ -34,34 +49,32 @@ public:
 
     // Of the edges of all triangles of the classes the one nearest to p that p projects into.
     Vec3d on_edge(const Vec3d& p, const std::vector<int>& classes) const {
-        double best = std::numeric_limits<double>::infinity(), best_t = 0;
+        double best = std::numeric_limits<double>::infinity();
         int best_a = -1, best_b = -1;
         for (int c : classes)
             for (int k : members_[at(c)]) {
                 const Triangle& tri = solid_.triangles[at(k)];
                 for (std::size_t i = 0; i < 3; ++i) {
-                    // One direction for both sides of an edge: the same image from either.
-                    const auto [a, b] = std::minmax(tri[i], tri[(i + 1) % 3]);
+                    const int a = tri[i], b = tri[(i + 1) % 3];
                     const Vec3d pa = corner(a), ab = minus(corner(b), pa);
                     const double t = std::clamp(dot(minus(p, pa), ab) / dot(ab, ab), 0.0, 1.0);
                     const Vec3d off = minus(p, blend(pa, 1, ab, t));
                     if (dot(off, off) >= best) continue;
                     best = dot(off, off);
-                    best_t = t;
                     best_a = a;
                     best_b = b;
                 }
             }
-        const Vec3d a = caller(best_a);
-        return blend(a, 1, minus(caller(best_b), a), best_t);
+        return between(p, best_a, best_b);
     }
 
-    // In the triangle of the class in which p lies deepest.
-    Vec3d in_facet(const Vec3d& p, int facet_class) const {
-        double best = -std::numeric_limits<double>::infinity();
-        Vec3d weights{1, 0, 0};
-        int found = members_[at(facet_class)].front();
-        for (int k : members_[at(facet_class)]) {
+    // In the triangle of the facet of `hint` in which p lies deepest; `hint` itself if it holds p.
+    Vec3d in_facet(const Vec3d& p, int hint) const {
+        Vec3d weights = barycentric(p, hint);
+        double best = std::min({weights[0], weights[1], weights[2]});
+        int found = hint;
+        for (int k : members_[at(classes_.of_triangle[at(hint)])]) {
+            if (best >= 0) break;
             const Vec3d w = barycentric(p, k);
             const double depth = std::min({w[0], w[1], w[2]});
             if (depth <= best) continue;
@@ -94,7 +107,12 @@ private:
     const GridSolid& solid_;
     const FacetClasses& classes_;
     const std::vector<Vec3d>& vertices_;
+    static std::uint64_t key(int a, int b) {
+        return static_cast<std::uint64_t>(a) << 32 | static_cast<std::uint32_t>(b);
+    }
+
     std::vector<std::vector<int>> members_;
+    std::unordered_set<std::uint64_t> edges_;
 };
 
 std::vector<int> classes_at(TetComplex& mesh, int p) {
@@ -121,9 +139,11 @@ RestoreTargets restore_targets(TetComplex& mesh, const GridSolid& solid,
         if (c.kind == CarrierKind::vertex) {
             place = locator.caller(c.first);
         } else if (used && c.kind == CarrierKind::facet) {
-            place = locator.in_facet(mesh.grid_place(p), classes.of_triangle[at(c.first)]);
+            place = locator.in_facet(mesh.grid_place(p), c.first);
         } else if (used && c.kind == CarrierKind::edge) {
-            place = locator.on_edge(mesh.grid_place(p), classes_at(mesh, p));
+            place = locator.is_edge(c.first, c.second)
+                        ? locator.between(mesh.grid_place(p), c.first, c.second)
+                        : locator.on_edge(mesh.grid_place(p), classes_at(mesh, p));
         }
         out.place.push_back(place);
         out.bound.push_back(used && c.kind != CarrierKind::inner);

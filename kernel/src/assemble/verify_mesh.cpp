@@ -320,7 +320,7 @@ private:
                 const Triangle& t = surface_.triangles[at(k)];
                 least = std::min(
                     least, triangle_distance(point(p), vertex(t[0]), vertex(t[1]), vertex(t[2])));
-                if (least == 0) break;
+                if (least <= 1e-9 * limit) break;
             }
             result_.steiner_distance = std::max(result_.steiner_distance, least);
             if (least > limit) fail("point " + std::to_string(p) + " is off the surface");
