@@ -18,7 +18,7 @@ from freecad_tetra.kernel import load
 
 
 class Unfit(Exception):
-    """The kernel calls the surface invalid: nothing to decompose. Holds the kinds of defects."""
+    """The kernel calls the surface invalid: nothing to decompose. Tells the defects."""
 
 
 class Repaired(AssertionError):
@@ -46,7 +46,11 @@ def lists_of_cells(found: dict[str, Any]) -> list[list[list[int]]]:
 def decompose(surface: Surface, checked: dict[str, Any], options: dict[str, Any]) -> dict[str, Any]:
     """convex_cells of a validated surface."""
     vertices = np.ascontiguousarray(surface[0], float)
-    return load().convex_cells(vertices, checked["triangles"], checked["solid"], options)
+    module = load()
+    try:
+        return module.convex_cells(vertices, checked["triangles"], checked["solid"], options)
+    except module.InvalidSolid as error:
+        raise Unfit(str(error)) from error
 
 
 def exact_points(found: dict[str, Any]) -> list[Point]:
@@ -110,7 +114,11 @@ def _check_tets(surface: Surface, options: dict[str, Any]) -> tuple[dict[str, fl
     checked = validated(surface)
     vertices = np.ascontiguousarray(surface[0], float)
     triangles: npt.NDArray[np.int32] = checked["triangles"]
-    found = load().tetrahedralize(vertices, triangles, checked["solid"], options)
+    module = load()
+    try:
+        found = module.tetrahedralize(vertices, triangles, checked["solid"], options)
+    except module.InvalidSolid as error:
+        raise Unfit(str(error)) from error
     result = verify_tets(
         vertices,
         triangles,

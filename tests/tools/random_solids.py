@@ -311,7 +311,8 @@ def to_off(surface: Surface) -> str:
 
 def read_off(path: str) -> Surface:
     with open(path, encoding="ascii") as file:
-        words = file.read().split()[1:]
+        lines = [line.split("#")[0] for line in file]
+    words = " ".join(lines).split()[1:]
     count, faces = int(words[0]), int(words[1])
     numbers = np.array([float(w) for w in words[3:]])
     vertices = numbers[: 3 * count].reshape(-1, 3)
