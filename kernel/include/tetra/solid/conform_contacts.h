@@ -12,7 +12,8 @@ namespace tetra {
 // stays as it is. No point is made; coplanar triangles are only divided at existing points and
 // their inner diagonals exchanged, so that surface and volume stay equal; parts keep the source
 // of a triangle of their plane. Where such a solid touches itself in faces, these become equal
-// opposite triangles and go: a gap of no thickness is none. O(n log n) for each round; without contacts there is one.
+// opposite triangles and go: a gap of no thickness is none. O(n log n) for each round; without
+// contacts there is one.
 //
 // \throw InvalidSolid (edge_contact) when two edges cross in a point inside both.
 GridSolid conform_contacts(GridSolid surface);
