@@ -84,6 +84,17 @@ nb::list exact_rows(const std::vector<HPoint>& points) {
     return rows;
 }
 
+// Facets in contact within one solid can leave a section that does not close; giving both sides of
+// every contact common vertices first helps there, and would only cost time elsewhere.
+ConvexCells cells_of(const GridSolid& grid, const std::vector<Vec3d>& vertices,
+                     const CellsOptions& options, Progress& progress) {
+    try {
+        return convex_cells(grid, vertices, options, progress);
+    } catch (const VerificationFailed&) {
+        return convex_cells(conform_contacts(grid), vertices, options, progress);
+    }
+}
+
 nb::dict convex_cells_arrays(const VertexArray& vertex_array, const TriangleArray& triangle_array,
                              nb::handle solid_ids, const nb::dict& options, nb::object progress) {
     const std::vector<Vec3d> vertices = to_vertices(vertex_array);
@@ -99,7 +110,7 @@ nb::dict convex_cells_arrays(const VertexArray& vertex_array, const TriangleArra
         origin = grid.grid.origin;
         std::vector<Defect> defects = find_defects(grid, p);
         if (!defects.empty()) throw InvalidSolid(std::move(defects));
-        return convex_cells(conform_contacts(grid), vertices, chosen, p);
+        return cells_of(grid, vertices, chosen, p);
     });
     nb::dict result;
     result["report"] = to_report(cells.stats, cells.cell_solid.size(), cells.points.size(), step);
