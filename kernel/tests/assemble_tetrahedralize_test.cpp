@@ -127,6 +127,27 @@ TEST(Tetrahedralize, FacesKeepTheirEdge) {
     EXPECT_EQ(std::unique(sources.begin(), sources.end()), sources.end());
 }
 
+TEST(Tetrahedralize, SkinNamesTheTriangleUnderIt) {
+    const TetInput input = input_of(gridded_cube(8, 16));
+    const TetResult result = run(input);
+    for (std::size_t s = 0; s < result.skin.size(); ++s) {
+        Vec3d middle{0, 0, 0};
+        for (const int p : result.skin[s])
+            for (std::size_t k = 0; k < 3; ++k)
+                middle[k] += result.points[static_cast<std::size_t>(p)][k] / 3;
+        const Triangle& t = input.triangles[static_cast<std::size_t>(result.skin_source[s])];
+        for (std::size_t k = 0; k < 3; ++k) {
+            double lo = 1e9, hi = -1e9;
+            for (const int v : t) {
+                lo = std::min(lo, input.vertices[static_cast<std::size_t>(v)][k]);
+                hi = std::max(hi, input.vertices[static_cast<std::size_t>(v)][k]);
+            }
+            EXPECT_GE(middle[k], lo - 1e-9);
+            EXPECT_LE(middle[k], hi + 1e-9);
+        }
+    }
+}
+
 TEST(Tetrahedralize, SolidsShareNodes) {
     // Two cubes side by side, each with vertices of its own.
     TestSolid second = cube();

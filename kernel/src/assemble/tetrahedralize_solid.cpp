@@ -160,6 +160,7 @@ class SolidWorker {
             report_.restore = std::move(restored.stats);
         }
         drop_unused(result);
+        locate_sources(result.mesh, input_.grid, owners_);
         check(result, facets);
         result.report = report_;
         return result;

@@ -46,6 +46,10 @@ PullOff choose_pull(const std::vector<Vec3i>& framed, const GridSolid& solid,
 // Nothing pulled.
 PullOff untouched(const GridSolid& solid, const std::vector<int>& owners);
 
+// Lets each skin triangle name the triangle of its facet under its middle. `owners` as in
+// facet_owners(); facets and planes stay what they are.
+void locate_sources(ExactMesh& mesh, const GridSolid& solid, const std::vector<int>& owners);
+
 struct SolidInput {
     const TetInput& caller;
     const GridSolid& grid;          // triangles of this solid only
