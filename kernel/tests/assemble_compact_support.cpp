@@ -16,7 +16,7 @@ std::size_t at(int i) { return static_cast<std::size_t>(i); }
 int floor_div(int a, int b) { return (a >= 0 ? a : a - b + 1) / b; }
 
 class Builder {
-public:
+  public:
     Builder(const std::set<Voxel>& voxels, const RefinedOptions& options)
         : voxels_(voxels), o_(options) {}
 
@@ -30,7 +30,7 @@ public:
         return std::move(out_);
     }
 
-private:
+  private:
     bool in(int x, int y, int z) const { return voxels_.count({x, y, z}) > 0; }
 
     // Numerator over parts of the coordinate of fine index f.
@@ -38,8 +38,9 @@ private:
         const int coarse = floor_div(f, o_.parts), rest = f - coarse * o_.parts;
         if (!o_.uneven) return (coarse * o_.parts + rest) * o_.spacing;
         const std::int64_t whole = coarse * o_.spacing * o_.parts;
-        return whole + (rest == 0 ? 0 : (rest + (rest * rest) % 2) * o_.spacing * o_.parts /
-                                            (o_.parts + 2));
+        return whole + (rest == 0
+                            ? 0
+                            : (rest + (rest * rest) % 2) * o_.spacing * o_.parts / (o_.parts + 2));
     }
 
     Vec3i mapped(const Voxel& fine) const {
@@ -50,7 +51,8 @@ private:
     }
 
     int corner_id(const Voxel& v) {
-        const auto [it, fresh] = corners_.try_emplace(v, static_cast<int>(out_.solid.points.size()));
+        const auto [it, fresh] =
+            corners_.try_emplace(v, static_cast<int>(out_.solid.points.size()));
         if (fresh) {
             const Vec3i p = mapped({v[0] * o_.parts, v[1] * o_.parts, v[2] * o_.parts});
             out_.solid.points.push_back({p[0] / o_.parts, p[1] / o_.parts, p[2] / o_.parts});
@@ -75,7 +77,8 @@ private:
                     if (!side) std::swap(id[1], id[3]);
                     face_[{v[0], v[1], v[2], axis * 2 + side}] =
                         static_cast<int>(out_.solid.triangles.size());
-                    for (const Triangle& t : {Triangle{id[0], id[1], id[2]}, {id[0], id[2], id[3]}}) {
+                    for (const Triangle& t :
+                         {Triangle{id[0], id[1], id[2]}, {id[0], id[2], id[3]}}) {
                         out_.solid.triangle_source.push_back(
                             static_cast<int>(out_.solid.triangles.size()));
                         out_.solid.triangles.push_back(t);
@@ -160,7 +163,8 @@ private:
                 for (int j = k + 1; j < 4; ++j) ++p[j][at(order[k])];
             std::array<int, 4> t;
             for (int k = 0; k < 4; ++k) t[at(k)] = point_id(p[k]);
-            const int inversions = (order[0] > order[1]) + (order[0] > order[2]) + (order[1] > order[2]);
+            const int inversions =
+                (order[0] > order[1]) + (order[0] > order[2]) + (order[1] > order[2]);
             if (inversions % 2) {
                 std::swap(t[1], t[2]);
                 std::swap(p[1], p[2]);
@@ -198,7 +202,9 @@ private:
 
 using Residues = std::array<std::uint64_t, 3>;
 
-std::uint64_t minus(std::uint64_t a, std::uint64_t b) { return a >= b ? a - b : a + kHashPrime - b; }
+std::uint64_t minus(std::uint64_t a, std::uint64_t b) {
+    return a >= b ? a - b : a + kHashPrime - b;
+}
 std::uint64_t plus(std::uint64_t a, std::uint64_t b) { return minus(a, b ? kHashPrime - b : 0); }
 
 Residues cross(const Residues& a, const Residues& b, const Residues& c) {
@@ -279,7 +285,8 @@ std::string flaw_of(const ExactMesh& mesh, const GridSolid& solid) {
     };
     for (std::size_t k = 0; k < solid.triangles.size(); ++k) {
         const Triangle& t = solid.triangles[k];
-        expected = plus(expected, volume({0, 0, 0}, corners[at(t[0])], corners[at(t[1])], corners[at(t[2])]));
+        expected = plus(expected,
+                        volume({0, 0, 0}, corners[at(t[0])], corners[at(t[1])], corners[at(t[2])]));
         Residues& sum = area[plane_of(static_cast<int>(k))];
         const Residues n = cross(corners[at(t[0])], corners[at(t[1])], corners[at(t[2])]);
         for (std::size_t j = 0; j < 3; ++j) sum[j] = plus(sum[j], n[j]);

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-// Voxel solids cut into fine Kuhn tetrahedra whose extra points are all removable, and exact checks.
+// Voxel solids cut into fine Kuhn tetrahedra whose extra points are all removable, and exact
+// checks.
 #pragma once
 
 #include <array>
@@ -16,9 +17,9 @@ namespace tetra::testing_support {
 using Voxel = std::array<int, 3>;
 
 struct RefinedOptions {
-    int parts = 2;               // fine cells per voxel and axis
-    std::int64_t spacing = 4;    // grid units per voxel before the map; parts need not divide it
-    bool uneven = false;         // fine coordinates not evenly spaced (parts <= spacing)
+    int parts = 2;             // fine cells per voxel and axis
+    std::int64_t spacing = 4;  // grid units per voxel before the map; parts need not divide it
+    bool uneven = false;       // fine coordinates not evenly spaced (parts <= spacing)
     std::array<Vec3i, 3> map{{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}};  // columns, determinant > 0
 };
 

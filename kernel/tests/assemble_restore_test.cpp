@@ -115,19 +115,21 @@ Refined mesh_of(const std::vector<Vec3i>& points, const std::vector<std::array<i
 }
 
 // The square 0 1 2 3 is flat for the caller; on the grid 1 and 3 lie a step lower.
-const std::vector<Vec3i> kCreased{{0, 0, 1},     {1000, 0, 0},     {1000, 1000, 1},
-                                  {0, 1000, 0},  {400, 600, -900}, {400, 600, 900}};
+const std::vector<Vec3i> kCreased{{0, 0, 1},    {1000, 0, 0},     {1000, 1000, 1},
+                                  {0, 1000, 0}, {400, 600, -900}, {400, 600, 900}};
 
 std::vector<Vec3d> flat_places(const Refined& r) {
     std::vector<Vec3d> v;
     for (const Vec3i& p : r.solid.points)
-        v.push_back(unsnap(r.solid.grid, {static_cast<double>(p[0]), static_cast<double>(p[1]),
-                                          p[2] == 1 || p[2] == 0 ? 0.5 : static_cast<double>(p[2])}));
+        v.push_back(
+            unsnap(r.solid.grid, {static_cast<double>(p[0]), static_cast<double>(p[1]),
+                                  p[2] == 1 || p[2] == 0 ? 0.5 : static_cast<double>(p[2])}));
     return v;
 }
 
 TEST(Restore, AFlatInnerTetrahedronIsFlippedAway) {
-    Refined r = mesh_of(kCreased, {{0, 1, 2, 3}, {5, 0, 1, 2}, {5, 0, 2, 3}, {4, 0, 1, 3}, {4, 1, 2, 3}});
+    Refined r =
+        mesh_of(kCreased, {{0, 1, 2, 3}, {5, 0, 1, 2}, {5, 0, 2, 3}, {4, 0, 1, 3}, {4, 1, 2, 3}});
     ASSERT_EQ(testing_support::flaw_of(r.mesh, r.solid), "");
     const std::vector<Vec3d> vertices = flat_places(r);
     Progress progress;

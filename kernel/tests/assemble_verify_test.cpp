@@ -24,14 +24,14 @@ struct Case {
 
 Case two_voxels() {
     testing_support::RefinedOptions o;
-    testing_support::Refined r = testing_support::refined_voxels(
-        testing_support::box_voxels(2, 1, 1), o);
+    testing_support::Refined r =
+        testing_support::refined_voxels(testing_support::box_voxels(2, 1, 1), o);
     r.solid.grid = {20, 0.125, {0, 0, 0}};
     Case c;
     for (const Vec3i& p : r.solid.points)
-        c.vertices.push_back(unsnap(r.solid.grid, {static_cast<double>(p[0]),
-                                                   static_cast<double>(p[1]),
-                                                   static_cast<double>(p[2])}));
+        c.vertices.push_back(unsnap(
+            r.solid.grid,
+            {static_cast<double>(p[0]), static_cast<double>(p[1]), static_cast<double>(p[2])}));
     Progress progress;
     const Restored restored = restore(r.mesh, r.solid, c.vertices, {}, {}, progress);
     c.points = restored.points;
@@ -119,7 +119,8 @@ TEST(VerifyMesh, NamesWhatIsWrong) {
 }
 
 TEST(TetQuality, RegularAndFlat) {
-    const std::vector<Vec3d> p{{1, 1, 1}, {1, -1, -1}, {-1, 1, -1}, {-1, -1, 1}, {1, 1, -1}, {1, -1, 1}};
+    const std::vector<Vec3d> p{{1, 1, 1},   {1, -1, -1}, {-1, 1, -1},
+                               {-1, -1, 1}, {1, 1, -1},  {1, -1, 1}};
     EXPECT_NEAR(mean_ratio(p[0], p[2], p[1], p[3]), -mean_ratio(p[0], p[1], p[2], p[3]), 1e-15);
     EXPECT_NEAR(std::abs(mean_ratio(p[0], p[1], p[2], p[3])), 1, 1e-14);
     const bool positive = mean_ratio(p[0], p[1], p[2], p[3]) > 0;

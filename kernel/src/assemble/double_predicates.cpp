@@ -20,7 +20,9 @@ struct Expansion {
         if (v != 0) term[static_cast<std::size_t>(size++)] = v;
     }
     double operator[](int i) const { return term[static_cast<std::size_t>(i)]; }
-    int sign() const { return size == 0 ? 0 : (term[static_cast<std::size_t>(size - 1)] > 0 ? 1 : -1); }
+    int sign() const {
+        return size == 0 ? 0 : (term[static_cast<std::size_t>(size - 1)] > 0 ? 1 : -1);
+    }
 };
 
 struct Sum {

@@ -13,15 +13,15 @@ inline constexpr int kTetEdges[6][2] = {{0, 1}, {0, 2}, {0, 3}, {1, 2}, {1, 3}, 
 struct FlipWalkLimits {
     int sideways = 4;  // flips that leave the count as it is
     int max_ring = 6;
-    int width = 6;     // blockers looked at before going sideways
-    int wander = 0;    // flips near the blockers to draw for a sideways one; 0 = only at them
+    int width = 6;   // blockers looked at before going sideways
+    int wander = 0;  // flips near the blockers to draw for a sideways one; 0 = only at them
 };
 
 // IsBad(tet): does the tetrahedron block? May_remove(a, b): may the edge a-b go?
 // Every flip applied is positive as TetComplex::positive() has it; the log allows to undo all.
 template <class IsBad, class MayRemove>
 class FlipWalk {
-public:
+  public:
     FlipWalk(TetComplex& mesh, const FlipWalkLimits& limits, Rng& rng, const IsBad& is_bad,
              const MayRemove& may_remove)
         : mesh_(mesh), limits_(limits), rng_(rng), is_bad_(is_bad), may_remove_(may_remove) {}
@@ -45,7 +45,7 @@ public:
 
     int flips() const { return flips_; }
 
-private:
+  private:
     bool lower() {
         sideways_seen_ = 0;
         const int n = static_cast<int>(bad_.size());
@@ -77,7 +77,8 @@ private:
     // A random flip near a blocker that does not raise the count.
     bool wander() {
         for (int k = 0; k < limits_.wander; ++k) {
-            const int bad = bad_[static_cast<std::size_t>(rng_.below(static_cast<int>(bad_.size())))];
+            const int bad =
+                bad_[static_cast<std::size_t>(rng_.below(static_cast<int>(bad_.size())))];
             const int t = nearby(bad);
             Flip flip;
             if (!propose(t, rng_.below(10), flip) || rise(flip) > 0) continue;

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-// Proposals of flips: a triangle for an edge (2-3), an edge for a triangulated ring (3-2, 4-4, 2-2).
+// Proposals of flips: a triangle for an edge (2-3), an edge for a triangulated ring (3-2, 4-4,
+// 2-2).
 #pragma once
 
 #include <limits>

@@ -6,19 +6,12 @@
 #include <cmath>
 
 #include "tetra/assemble/tet_quality.h"
+#include "vec3.h"
 
 namespace tetra {
 namespace {
 
 std::size_t at(int i) { return static_cast<std::size_t>(i); }
-
-Vec3d area_vector(const Vec3d& a, const Vec3d& b, const Vec3d& c) {
-    Vec3d u, v;
-    for (std::size_t k = 0; k < 3; ++k) u[k] = b[k] - a[k], v[k] = c[k] - a[k];
-    return {u[1] * v[2] - u[2] * v[1], u[2] * v[0] - u[0] * v[2], u[0] * v[1] - u[1] * v[0]};
-}
-
-double norm(const Vec3d& v) { return std::sqrt(v[0] * v[0] + v[1] * v[1] + v[2] * v[2]); }
 
 // The pairs (first, second) of faces seen from outside the quadrangle must tile it alike.
 bool same_area(const std::array<Vec3d, 4>& corner, const std::array<int, 2>& old_faces,
@@ -28,7 +21,7 @@ bool same_area(const std::array<Vec3d, 4>& corner, const std::array<int, 2>& old
     for (int pair = 0; pair < 2; ++pair)
         for (int face : pair == 0 ? old_faces : new_faces) {
             const int* f = kFace[face];
-            const Vec3d n = area_vector(corner[at(f[0])], corner[at(f[1])], corner[at(f[2])]);
+            const Vec3d n = normal_of(corner[at(f[0])], corner[at(f[1])], corner[at(f[2])]);
             area[pair] += norm(n);
             for (std::size_t k = 0; k < 3; ++k) sum[pair][k] += n[k];
         }

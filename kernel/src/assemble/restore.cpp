@@ -6,11 +6,11 @@
 #include <chrono>
 #include <cmath>
 #include <string>
-#include <unordered_map>
 #include <utility>
 
 #include "flip_walk.h"
 #include "peel.h"
+#include "restore_facets.h"
 #include "restore_targets.h"
 #include "sweeps.h"
 #include "tet_complex.h"
@@ -26,11 +26,16 @@ std::size_t at(int i) { return static_cast<std::size_t>(i); }
 constexpr double kSliver = 1e-6;  // grid steps of height below which a flip is looked for (B6)
 
 class Restorer {
-public:
+  public:
     Restorer(TetComplex& mesh, RestoreTargets targets, const RestoreOptions& options, Rng& rng,
              Progress& progress)
-        : mesh_(mesh), targets_(std::move(targets)), options_(options), progress_(progress),
-          rng_(rng), home_(at(mesh.point_count())), moved_(targets_.bound.size(), 1) {
+        : mesh_(mesh),
+          targets_(std::move(targets)),
+          options_(options),
+          progress_(progress),
+          rng_(rng),
+          home_(at(mesh.point_count())),
+          moved_(targets_.bound.size(), 1) {
         for (int p = 0; p < mesh.point_count(); ++p) home_[at(p)] = mesh.place(p);
     }
 
@@ -74,7 +79,7 @@ public:
             s.slivers += mesh_.alive(t) && height(mesh_.tet(t)) < kSliver * mesh_.grid().step;
     }
 
-private:
+  private:
     using Corners = std::array<Vec3d, 4>;
 
     Corners corners(const Tet& t) const {
@@ -336,50 +341,11 @@ private:
     std::vector<char> moved_;  // at its target
     RestoreStats stats_;
     CollapseScratch scratch_;
-    double floor_ = 0;         // least height of a sound tetrahedron, in the caller's unit
+    double floor_ = 0;  // least height of a sound tetrahedron, in the caller's unit
 
-public:
+  public:
     int quality_flips() const { return stats_.quality_flips; }
 };
-
-// Facets as the classes are, those of each pair of triangles joined.
-std::vector<int> joined_facets(const FacetClasses& classes,
-                               const std::vector<std::array<int, 2>>& pairs) {
-    std::vector<int> facet = classes.of_triangle;
-    for (const auto& [a, b] : pairs) {
-        const int keep = std::min(facet[at(a)], facet[at(b)]);
-        const int drop = std::max(facet[at(a)], facet[at(b)]);
-        if (keep != drop) std::replace(facet.begin(), facet.end(), drop, keep);
-    }
-    return facet;
-}
-
-// The skin triangle's source becomes the triangle of its facet that shares a directed edge with it,
-// where there is one.
-void refine_sources(ExactMesh& mesh, const GridSolid& solid, const std::vector<int>& facet) {
-    std::unordered_map<std::uint64_t, int> owner;
-    const auto key = [](int a, int b) {
-        return static_cast<std::uint64_t>(a) << 32 | static_cast<std::uint32_t>(b);
-    };
-    for (std::size_t k = 0; k < solid.triangles.size(); ++k)
-        for (std::size_t i = 0; i < 3; ++i)
-            owner.emplace(key(solid.triangles[k][i], solid.triangles[k][(i + 1) % 3]),
-                          static_cast<int>(k));
-    const auto grid_point = [&](int p) {
-        const Carrier& c = mesh.carriers[at(p)];
-        return c.kind == CarrierKind::vertex ? c.first : -1;
-    };
-    for (std::size_t s = 0; s < mesh.skin.size(); ++s)
-        for (std::size_t i = 0; i < 3; ++i) {
-            const int a = grid_point(mesh.skin[s][i]), b = grid_point(mesh.skin[s][(i + 1) % 3]);
-            if (a < 0 || b < 0) continue;
-            const auto it = owner.find(key(a, b));
-            if (it == owner.end() || facet[at(it->second)] != facet[at(mesh.skin_source[s])])
-                continue;
-            mesh.skin_source[s] = it->second;
-            break;
-        }
-}
 
 struct Model {
     const GridSolid& solid;
@@ -396,9 +362,8 @@ Restored attempt_restore(const ExactMesh& mesh, ExactMesh& result, const Model& 
     Rng rng{options.seed + static_cast<std::uint64_t>(attempt)};
     Sweep sweep{complex, rng, progress, nullptr, 0};
     for (int k = 0; k < std::min(attempt, 3); ++k) neutral_sweep(sweep);
-    Restorer restorer(complex,
-                      restore_targets(complex, model.solid, model.classes, model.vertices), options,
-                      rng, progress);
+    Restorer restorer(complex, restore_targets(complex, model.solid, model.classes, model.vertices),
+                      options, rng, progress);
     Restored out;
     out.stats = restorer.run();
     if (options.quality_below > 0) restorer.improve(options.quality_below);
@@ -421,8 +386,8 @@ Restored restore(ExactMesh& mesh, const GridSolid& solid, const std::vector<Vec3
     ExactMesh best_mesh;
     for (int attempt = 0; attempt < std::max(1, options.attempts); ++attempt) {
         ExactMesh result;
-        Restored now = attempt_restore(mesh, result, {solid, classes, vertices}, options, attempt,
-                                       progress);
+        Restored now =
+            attempt_restore(mesh, result, {solid, classes, vertices}, options, attempt, progress);
         const bool better = attempt == 0 || misplaced(now.stats) < misplaced(best.stats);
         if (better) {
             best = std::move(now);

@@ -7,23 +7,19 @@
 #include <unordered_set>
 #include <utility>
 
+#include "vec3.h"
+
 namespace tetra {
 namespace {
 
 std::size_t at(int i) { return static_cast<std::size_t>(i); }
-
-Vec3d minus(const Vec3d& a, const Vec3d& b) { return {a[0] - b[0], a[1] - b[1], a[2] - b[2]}; }
-double dot(const Vec3d& a, const Vec3d& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
-Vec3d cross(const Vec3d& a, const Vec3d& b) {
-    return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
-}
 
 Vec3d blend(const Vec3d& a, double ta, const Vec3d& b, double tb) {
     return {a[0] * ta + b[0] * tb, a[1] * ta + b[1] * tb, a[2] * ta + b[2] * tb};
 }
 
 class Locator {
-public:
+  public:
     Locator(const GridSolid& solid, const FacetClasses& classes, const std::vector<Vec3d>& vertices)
         : solid_(solid), classes_(classes), vertices_(vertices), members_(classes.classes.size()) {
         for (std::size_t k = 0; k < classes.of_triangle.size(); ++k) {
@@ -88,7 +84,7 @@ public:
         return blend(ab, 1, minus(caller(t[2]), a), weights[2]);
     }
 
-private:
+  private:
     Vec3d corner(int grid_point) const {
         const Vec3i& p = solid_.points[at(grid_point)];
         return {static_cast<double>(p[0]), static_cast<double>(p[1]), static_cast<double>(p[2])};

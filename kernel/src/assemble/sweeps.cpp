@@ -18,7 +18,9 @@ bool reduce_at(Sweep& s, int t) {
         Ring ring;
         if (!find_ring(s.mesh, t, e[0], e[1], 3, ring) || ring.open || ring.size != 3) continue;
         Flip flip;
-        if (!propose_edge_flip(s.mesh, ring, [](const Tet&) { return 0.0; }, flip)) continue;
+        if (!propose_edge_flip(
+                s.mesh, ring, [](const Tet&) { return 0.0; }, flip))
+            continue;
         s.mesh.apply(flip);
         ++s.reducing;
         touch(s, flip);

@@ -11,6 +11,7 @@
 #include "tetra/errors.h"
 #include "tetra/exact/plane.h"
 #include "tetra/exact/predicates.h"
+#include "vec3.h"
 
 namespace tetra {
 namespace {
@@ -18,24 +19,21 @@ namespace {
 std::size_t at(int i) { return static_cast<std::size_t>(i); }
 
 bool fits_integer(const HPoint& p) {
-    const auto small = [](const Int256& v) { return v == Int256(static_cast<std::int64_t>(v.limb[0])); };
+    const auto small = [](const Int256& v) {
+        return v == Int256(static_cast<std::int64_t>(v.limb[0]));
+    };
     if (!(p.w == Int256(1)) || !small(p.x) || !small(p.y) || !small(p.z)) return false;
     for (const Int256* v : {&p.x, &p.y, &p.z})
         if (std::abs(static_cast<std::int64_t>(v->limb[0])) > (std::int64_t{1} << 40)) return false;
     return true;
 }
 
-double twice_area(const Vec3d& a, const Vec3d& b, const Vec3d& c) {
-    const Vec3d u{b[0] - a[0], b[1] - a[1], b[2] - a[2]}, v{c[0] - a[0], c[1] - a[1], c[2] - a[2]};
-    const double x = u[1] * v[2] - u[2] * v[1], y = u[2] * v[0] - u[0] * v[2],
-                 z = u[0] * v[1] - u[1] * v[0];
-    return std::sqrt(x * x + y * y + z * z);
+Triangle sorted(int a, int b, int c) {
+    if (a > b) std::swap(a, b);
+    if (b > c) std::swap(b, c);
+    if (a > b) std::swap(a, b);
+    return {a, b, c};
 }
-
-// A triangle seen from one side: of a tetrahedron (code = 4 t + face) or of the skin (~class).
-struct FaceKey {
-    int mid, high, code;
-};
 
 }  // namespace
 
@@ -99,12 +97,6 @@ TetComplex::TetComplex(const ExactMesh& mesh, const Grid& grid, const FacetClass
 
 // Buckets by lowest corner keep this linear but for the sort inside a bucket.
 void TetComplex::pair_faces(const ExactMesh& mesh) {
-    const auto sorted = [](int a, int b, int c) {
-        if (a > b) std::swap(a, b);
-        if (b > c) std::swap(b, c);
-        if (a > b) std::swap(a, b);
-        return Triangle{a, b, c};
-    };
     const auto face = [&](int t, int i) {
         const Tet& v = tets_[at(t)];
         return sorted(v[at(kFace[i][0])], v[at(kFace[i][1])], v[at(kFace[i][2])]);
@@ -125,55 +117,56 @@ void TetComplex::pair_faces(const ExactMesh& mesh) {
         const Triangle f = sorted(mesh.skin[s][0], mesh.skin[s][1], mesh.skin[s][2]);
         keys[at(fill[at(f[0])]++)] = {f[1], f[2], ~static_cast<int>(s)};
     }
-    const auto fail = [](const char* what, int p, int q, int r) {
-        throw VerificationFailed(std::string("tetrahedra before compaction: ") + what +
-                                 " at points " + std::to_string(p) + ", " + std::to_string(q) +
-                                 ", " + std::to_string(r));
-    };
-    const auto outward = [&](int code, const Triangle& s) {
-        const Tet& v = tets_[at(code / 4)];
-        const int* f = kFace[code % 4];
-        for (int k = 0; k < 3; ++k)
-            if (v[at(f[k])] == s[0]) return v[at(f[(k + 1) % 3])] == s[1];
-        return false;
-    };
-    for (int p = 0; p + 1 < static_cast<int>(start.size()); ++p) {
-        const auto first = keys.begin() + start[at(p)], last = keys.begin() + start[at(p) + 1];
+    for (std::size_t p = 0; p + 1 < start.size(); ++p) {
+        FaceKey* const first = keys.data() + start[p];
+        FaceKey* const last = keys.data() + start[p + 1];
+        // Tetrahedra (positive codes) come before skin triangles.
         std::sort(first, last, [](const FaceKey& a, const FaceKey& b) {
             return std::tie(a.mid, a.high, b.code) < std::tie(b.mid, b.high, a.code);
         });
-        for (auto i = first; i != last;) {
-            auto j = i;
+        for (FaceKey* i = first; i != last;) {
+            FaceKey* j = i;
             while (j != last && j->mid == i->mid && j->high == i->high) ++j;
-            // Within a group tetrahedra come first (codes descend), then skin triangles.
-            int sides[2], side_count = 0;
-            std::vector<int> skins;
-            for (auto k = i; k != j; ++k) {
-                if (k->code < 0) {
-                    skins.push_back(~k->code);
-                } else {
-                    if (side_count == 2) fail("three tetrahedra on a triangle", p, i->mid, i->high);
-                    sides[side_count++] = k->code;
-                }
-            }
-            if (side_count == 2 && skins.empty()) {
-                neighbours_[at(sides[0] / 4)][at(sides[0] % 4)] = sides[1];
-                neighbours_[at(sides[1] / 4)][at(sides[1] % 4)] = sides[0];
-            } else {
-                if (static_cast<int>(skins.size()) != side_count)
-                    fail("skin and tetrahedra disagree", p, i->mid, i->high);
-                for (int s = 0; s < side_count; ++s) {
-                    int found = -1;
-                    for (int k : skins)
-                        if (outward(sides[s], mesh.skin[at(k)])) found = k;
-                    if (found < 0) fail("a skin triangle faces inward", p, i->mid, i->high);
-                    neighbours_[at(sides[s] / 4)][at(sides[s] % 4)] =
-                        ~classes_.of_triangle[at(mesh.skin_source[at(found)])];
-                }
-            }
+            link_sides(mesh, {static_cast<int>(p), i->mid, i->high}, i, j);
             i = j;
         }
     }
+}
+
+// All that lies on one triangle: two tetrahedra, or as many as skin triangles, which they face.
+void TetComplex::link_sides(const ExactMesh& mesh, const Triangle& here, const FaceKey* first,
+                            const FaceKey* last) {
+    const auto fail = [&](const char* what) {
+        throw VerificationFailed(std::string("tetrahedra before compaction: ") + what +
+                                 " at points " + std::to_string(here[0]) + ", " +
+                                 std::to_string(here[1]) + ", " + std::to_string(here[2]));
+    };
+    const FaceKey* skin = first;
+    while (skin != last && skin->code >= 0) ++skin;
+    const auto sides = skin - first, skins = last - skin;
+    if (sides > 2) fail("three tetrahedra on a triangle");
+    if (sides == 2 && skins == 0) {
+        set_neighbour(first[0].code, first[1].code);
+        set_neighbour(first[1].code, first[0].code);
+        return;
+    }
+    if (sides != skins) fail("skin and tetrahedra disagree");
+    for (const FaceKey* side = first; side != skin; ++side) {
+        int source = -1;
+        for (const FaceKey* k = skin; k != last; ++k)
+            if (faces_outward(side->code, mesh.skin[at(~k->code)]))
+                source = mesh.skin_source[at(~k->code)];
+        if (source < 0) fail("a skin triangle faces inward");
+        set_neighbour(side->code, ~classes_.of_triangle[at(source)]);
+    }
+}
+
+bool TetComplex::faces_outward(int code, const Triangle& triangle) const {
+    const Tet& v = tets_[at(code / 4)];
+    const int* f = kFace[code % 4];
+    for (int k = 0; k < 3; ++k)
+        if (v[at(f[k])] == triangle[0]) return v[at(f[(k + 1) % 3])] == triangle[1];
+    return false;
 }
 
 void TetComplex::write_back(ExactMesh& mesh, std::vector<Vec3d>* places) const {
@@ -201,8 +194,8 @@ void TetComplex::write_back(ExactMesh& mesh, std::vector<Vec3d>* places) const {
         for (int i = 0; i < 4; ++i) {
             const int code = neighbour(t, i);
             if (code >= 0) continue;
-            out.skin.push_back(
-                {id[at(v[at(kFace[i][0])])], id[at(v[at(kFace[i][1])])], id[at(v[at(kFace[i][2])])]});
+            out.skin.push_back({id[at(v[at(kFace[i][0])])], id[at(v[at(kFace[i][1])])],
+                                id[at(v[at(kFace[i][2])])]});
             out.skin_source.push_back(facet_class(~code).triangle);
         }
     }
@@ -292,8 +285,8 @@ void TetComplex::collapse(int p, int q) {
         // The two faces that fold onto one another hand each other their outer neighbours.
         const int beyond_p = neighbour(t, i), beyond_q = neighbour(t, j);
         assert(beyond_p >= 0 || beyond_q >= 0);
-        if (beyond_p >= 0) neighbours_[at(beyond_p / 4)][at(beyond_p % 4)] = beyond_q;
-        if (beyond_q >= 0) neighbours_[at(beyond_q / 4)][at(beyond_q % 4)] = beyond_p;
+        if (beyond_p >= 0) set_neighbour(beyond_p, beyond_q);
+        if (beyond_q >= 0) set_neighbour(beyond_q, beyond_p);
         alive_[at(t)] = 0;
         --live_;
     }
@@ -313,9 +306,9 @@ void TetComplex::peel(int t) {
     for (int i = 0; i < 4; ++i) {
         if (neighbour(t, i) >= 0) continue;
         skin.push_back(~neighbour(t, i));
-        const double area = twice_area(grid_[at(tets_[at(t)][at(kFace[i][0])])],
-                                       grid_[at(tets_[at(t)][at(kFace[i][1])])],
-                                       grid_[at(tets_[at(t)][at(kFace[i][2])])]);
+        const double area = norm(normal_of(grid_[at(tets_[at(t)][at(kFace[i][0])])],
+                                           grid_[at(tets_[at(t)][at(kFace[i][1])])],
+                                           grid_[at(tets_[at(t)][at(kFace[i][2])])]));
         if (area <= largest) continue;
         largest = area;
         kept = skin.back();

@@ -25,9 +25,9 @@ inline constexpr int kRest[4][4][2] = {{{-1, -1}, {2, 3}, {3, 1}, {1, 2}},
 
 // What a skin triangle lies on: one plane, one side of it, one B-rep face, one solid.
 struct FacetClass {
-    int plane = -1;           // id without side
-    int face = 0;             // the caller's face
-    int triangle = -1;        // a triangle of the GridSolid on it
+    int plane = -1;     // id without side
+    int face = 0;       // the caller's face
+    int triangle = -1;  // a triangle of the GridSolid on it
     friend bool operator==(const FacetClass&, const FacetClass&) = default;
 };
 
@@ -49,7 +49,8 @@ struct Rng {
         return z ^ (z >> 31);
     }
     int below(int n) {
-        return static_cast<int>((static_cast<unsigned __int128>(next()) * static_cast<unsigned>(n)) >> 64);
+        return static_cast<int>(
+            (static_cast<unsigned __int128>(next()) * static_cast<unsigned>(n)) >> 64);
     }
 };
 
@@ -75,7 +76,7 @@ struct Flip {
 // tetrahedra are mutual; `stars` of a point holds each live tetrahedron at it at least once, and
 // maybe stale ids, which star_of() drops.
 class TetComplex {
-public:
+  public:
     // Throws VerificationFailed if triangles don't pair or skin triangles are missing.
     TetComplex(const ExactMesh& mesh, const Grid& grid, const FacetClasses& classes);
 
@@ -142,11 +143,21 @@ public:
     void undo_to(std::size_t mark);
     void forget() { log_.clear(); }
 
-private:
+  private:
     int add(const Tet& t, int solid);
     void enter_star(int p, int t);
     bool exactly_positive(int a, int b, int c, int d) const;
+    // A triangle with its lowest corner left out: side of a tetrahedron, or skin triangle ~code.
+    struct FaceKey {
+        int mid, high, code;
+    };
     void pair_faces(const ExactMesh& mesh);
+    void link_sides(const ExactMesh& mesh, const Triangle& here, const FaceKey* first,
+                    const FaceKey* last);
+    bool faces_outward(int code, const Triangle& triangle) const;
+    void set_neighbour(int code, int other) {
+        neighbours_[static_cast<std::size_t>(code / 4)][static_cast<std::size_t>(code % 4)] = other;
+    }
 
     Grid frame_;
     FacetClasses classes_;

@@ -7,15 +7,10 @@
 #include <limits>
 
 #include "tetra/assemble/double_predicates.h"
+#include "vec3.h"
 
 namespace tetra {
 namespace {
-
-Vec3d minus(const Vec3d& a, const Vec3d& b) { return {a[0] - b[0], a[1] - b[1], a[2] - b[2]}; }
-double dot(const Vec3d& a, const Vec3d& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
-Vec3d cross(const Vec3d& a, const Vec3d& b) {
-    return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
-}
 
 // Outward normals of the faces, of twice the faces' areas.
 std::array<Vec3d, 4> normals(const Vec3d& a, const Vec3d& b, const Vec3d& c, const Vec3d& d) {

@@ -10,6 +10,7 @@
 
 #include "tetra/assemble/double_predicates.h"
 #include "tetra/errors.h"
+#include "vec3.h"
 
 namespace tetra {
 namespace {
@@ -18,17 +19,11 @@ constexpr int kFaces[4][3] = {{1, 2, 3}, {0, 3, 2}, {0, 1, 3}, {0, 2, 1}};
 
 std::size_t at(int i) { return static_cast<std::size_t>(i); }
 
-Vec3d minus(const Vec3d& a, const Vec3d& b) { return {a[0] - b[0], a[1] - b[1], a[2] - b[2]}; }
-double dot(const Vec3d& a, const Vec3d& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
-Vec3d cross(const Vec3d& a, const Vec3d& b) {
-    return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
-}
 Vec3d area_vector(const Vec3d& a, const Vec3d& b, const Vec3d& c) {
-    Vec3d n = cross(minus(b, a), minus(c, a));
+    Vec3d n = normal_of(a, b, c);
     for (double& x : n) x /= 2;
     return n;
 }
-double norm(const Vec3d& v) { return std::sqrt(dot(v, v)); }
 
 [[noreturn]] void fail(const std::string& what) {
     throw VerificationFailed("the finished mesh is wrong: " + what);
@@ -55,8 +50,8 @@ double triangle_distance(const Vec3d& p, const Vec3d& a, const Vec3d& b, const V
                         dot(cross(minus(a, c), minus(p, c)), n) >= 0;
     const double length = norm(n);
     if (inside && length > 0) return std::fabs(dot(minus(p, a), n)) / length;
-    return std::min({segment_distance(p, a, b), segment_distance(p, b, c),
-                     segment_distance(p, c, a)});
+    return std::min(
+        {segment_distance(p, a, b), segment_distance(p, b, c), segment_distance(p, c, a)});
 }
 
 struct FacetSums {
@@ -66,7 +61,7 @@ struct FacetSums {
 };
 
 class Checker {
-public:
+  public:
     Checker(const MeshUnderTest& mesh, const SurfaceUnderTest& surface,
             const CheckTolerance& tolerance, Progress& progress)
         : mesh_(mesh), surface_(surface), tolerance_(tolerance), progress_(progress) {}
@@ -83,7 +78,7 @@ public:
         return result_;
     }
 
-private:
+  private:
     const Vec3d& point(int p) const { return mesh_.points[at(p)]; }
     const Vec3d& vertex(int v) const { return surface_.vertices[at(v)]; }
     int facet(int triangle) const {
@@ -96,7 +91,8 @@ private:
         for (const auto& t : mesh_.tets)
             if (!std::all_of(t.begin(), t.end(), known)) fail("a tetrahedron has an unknown point");
         for (const auto& t : mesh_.skin)
-            if (!std::all_of(t.begin(), t.end(), known)) fail("a skin triangle has an unknown point");
+            if (!std::all_of(t.begin(), t.end(), known))
+                fail("a skin triangle has an unknown point");
         if (mesh_.skin_source.size() != mesh_.skin.size()) fail("skin without sources");
         for (int k : mesh_.skin_source)
             if (k < 0 || k >= static_cast<int>(surface_.triangles.size()))
@@ -282,7 +278,8 @@ private:
             magnitude += std::fabs(v);
         }
         for (const auto& t : mesh_.tets)
-            result_.volume += det3_of_points(point(t[0]), point(t[1]), point(t[2]), point(t[3])) / 6;
+            result_.volume +=
+                det3_of_points(point(t[0]), point(t[1]), point(t[2]), point(t[3])) / 6;
         double allowed = tolerance_.relative * std::max(expected, 1e-3 * magnitude);
         for (const FacetSums& f : facets_) allowed += f.input_area * f.unevenness;
         if (surface_.facets.empty() || result_.vertices_moved > 0)

@@ -17,7 +17,7 @@ enum class CompactLevel { none, standard, max };
 struct CompactOptions {
     CompactLevel level = CompactLevel::standard;
     std::uint64_t seed = 1;
-    int rounds = 12;     // of level max
+    int rounds = 24;     // of level max, at most
     double seconds = 0;  // stop level max after so long; 0 = never. A limit costs determinism.
 };
 
@@ -29,9 +29,9 @@ struct SteinerCount {
 struct CompactStats {
     int tets_before = 0, tets_after = 0;
     SteinerCount steiner_before, steiner_after;
-    int collapses = 0;         // without help
-    int unlocked = 0;          // after flips
-    int reducing_flips = 0;    // 3-2
+    int collapses = 0;       // without help
+    int unlocked = 0;        // after flips
+    int reducing_flips = 0;  // 3-2
     int rounds = 0;
     double seconds = 0;
 };

@@ -11,10 +11,10 @@ namespace tetra {
 struct TetQuality {
     // Tetrahedra by mean ratio: below 1e-6, 1e-4, 1e-3, 1e-2, 0.05, 0.1, 0.2, 0.4, 0.7, and above.
     std::array<int, 10> histogram{};
-    double min = 1, mean = 0;          // of the mean ratio; 1 = regular
-    double min_dihedral = 3.1415927;   // radians
+    double min = 1, mean = 0;         // of the mean ratio; 1 = regular
+    double min_dihedral = 3.1415927;  // radians
     double max_dihedral = 0;
-    double min_height = 0;             // smallest height over a face, in the points' unit
+    double min_height = 0;  // smallest height over a face, in the points' unit
 };
 
 // 12 (3 V)^(2/3) / sum of squared edge lengths: 1 for the regular tetrahedron, 0 for a flat one,
