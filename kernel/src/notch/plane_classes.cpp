@@ -7,6 +7,8 @@
 #include <map>
 #include <numeric>
 
+#include "tetra/solid/box_tree.h"
+
 namespace tetra::notch {
 namespace {
 
@@ -19,11 +21,6 @@ struct Group {
     Unit unit{};  // of the first triangle's orientation is irrelevant: as stored
     std::vector<int> triangles;
     std::vector<int> vertices;
-};
-
-// What rules most groups out, apart from the rest of them for the cache's sake.
-struct Probe {
-    Vec3d normal, vertex;
 };
 
 Vec3d as_doubles(const Vec3i& p) {
@@ -107,25 +104,26 @@ class Classifier {
         std::stable_sort(order.begin(), order.end(),
                          [&](int a, int b) { return groups_[a].area > groups_[b].area; });
         taken_.assign(groups_.size(), 0);
-        for (const Group& g : groups_)
-            probes_.push_back(
-                {{g.unit[0], g.unit[1], g.unit[2]}, as_doubles(solid_.points[g.vertices.front()])});
+        rank_.resize(order.size());
+        std::vector<Triangle> first;  // a triangle stands for its group
+        for (std::size_t i = 0; i < order.size(); ++i) rank_[order[i]] = static_cast<int>(i);
+        for (const Group& g : groups_) first.push_back(solid_.triangles[g.triangles.front()]);
+        tree_ = build_box_tree(solid_.points, first);
         for (const int seed : order) {
             if (taken_[seed] || is_demoted(groups_[seed])) continue;
-            grow(seed, order);
+            grow(seed);
         }
     }
 
-    void grow(int seed, const std::vector<int>& order) {
+    void grow(int seed) {
         Unit unit = groups_[seed].unit;
-        std::vector<int> members = members_near(unit, seed, order);
+        std::vector<int> members = members_near(unit, seed);
         if (members.size() == 1) return;
         int key = 2 * groups_[seed].plane;
         for (int round = 0; round < 4; ++round) {
             const int refit = spread_plane(members);
             if (refit < 0) break;
-            const std::vector<int> wider =
-                members_near(points_.unit_plane(refit >> 1), seed, order);
+            const std::vector<int> wider = members_near(points_.unit_plane(refit >> 1), seed);
             // Keep the fit only if the seed is on it and nothing is lost.
             if (wider.size() < members.size()) break;
             key = refit;
@@ -140,30 +138,47 @@ class Classifier {
         }
     }
 
-    // Groups with all vertices within delta of the plane; the seed always first.
-    std::vector<int> members_near(const Unit& unit, int seed, const std::vector<int>& order) const {
-        std::vector<int> members;
-        for (const int g : order) {
-            const Probe& probe = probes_[g];
-            const double cosine =
-                probe.normal[0] * unit[0] + probe.normal[1] * unit[1] + probe.normal[2] * unit[2];
-            if (std::fabs(cosine) < 0.9) continue;
-            const double gap = probe.vertex[0] * unit[0] + probe.vertex[1] * unit[1] +
-                               probe.vertex[2] * unit[2] + unit[3];
-            if (std::fabs(gap) > delta_) continue;
-            const Group& group = groups_[g];
-            if (taken_[g] || is_demoted(group)) continue;
-            bool near = true;
-            for (const int v : group.vertices)
-                if (std::fabs(distance(unit, solid_.points[v])) > delta_) {
-                    near = false;
-                    break;
-                }
-            if (near) members.push_back(g);
+    // Groups with all vertices within delta of the plane, largest first; none without the seed.
+    std::vector<int> members_near(const Unit& unit, int seed) const {
+        std::vector<int> members, stack{0};
+        while (!stack.empty()) {
+            const BoxTree::Node& node = tree_.nodes[static_cast<std::size_t>(stack.back())];
+            stack.pop_back();
+            if (!meets_slab(node.box, unit)) continue;
+            if (node.left >= 0) {
+                stack.insert(stack.end(), {node.left, node.left + 1});
+                continue;
+            }
+            for (int i = node.begin; i < node.end; ++i) {
+                const int g = tree_.order[static_cast<std::size_t>(i)];
+                if (!taken_[g] && !is_demoted(groups_[g]) && is_near(groups_[g], unit))
+                    members.push_back(g);
+            }
         }
-        if (members.empty() || std::find(members.begin(), members.end(), seed) == members.end())
-            return {};
+        std::sort(members.begin(), members.end(),
+                  [&](int a, int b) { return rank_[a] < rank_[b]; });
+        if (std::find(members.begin(), members.end(), seed) == members.end()) members.clear();
         return members;
+    }
+
+    bool meets_slab(const Box& box, const Unit& unit) const {
+        double centre = unit[3], reach = delta_;
+        for (int k = 0; k < 3; ++k) {
+            const auto low = static_cast<double>(box.low[k]),
+                       high = static_cast<double>(box.high[k]);
+            centre += unit[k] * (low + high) / 2;
+            reach += std::fabs(unit[k]) * (high - low) / 2;
+        }
+        return std::fabs(centre) <= reach;
+    }
+
+    bool is_near(const Group& group, const Unit& unit) const {
+        const double cosine =
+            group.unit[0] * unit[0] + group.unit[1] * unit[1] + group.unit[2] * unit[2];
+        if (std::fabs(cosine) < 0.9) return false;
+        return std::all_of(group.vertices.begin(), group.vertices.end(), [&](int v) {
+            return std::fabs(distance(unit, solid_.points[v])) <= delta_;
+        });
     }
 
     // The plane of three far-apart vertices of the groups, -1 when they are all on a line.
@@ -207,7 +222,8 @@ class Classifier {
     PointTable& points_;
     PlaneClasses result_;
     std::vector<Group> groups_;
-    std::vector<Probe> probes_;
+    std::vector<int> rank_;  // of a group by area
+    BoxTree tree_;
     std::vector<char> taken_;
 };
 
