@@ -17,7 +17,7 @@ fi
 
 mounted() { mountpoint --quiet "$1"; }
 unmount() {
-    for place in work/shared proc dev; do
+    for place in work/shared proc dev/pts dev; do
         mounted "$root/$place" && umount "$root/$place"
     done
     return 0
@@ -28,6 +28,7 @@ cp -a "$root.base" "$root"
 trap unmount EXIT
 mount -t proc proc "$root/proc"
 mount --bind /dev "$root/dev"
+mount --bind /dev/pts "$root/dev/pts"
 
 cp /etc/resolv.conf "$root/etc/resolv.conf"
 mkdir -p "$root/etc/ssl/certs" "$root/work/shared" "$root/usr/local/share/ca-certificates"
