@@ -148,11 +148,20 @@ TetResult tetrahedralize(const TetInput& input, const TetOptions& options, Progr
     const int highest = options.grid_bits ? options.grid_bits : kFinestBits;
     for (int bits = lowest;;) {
         GridChoice choice;
-        {
+        try {
             const StageClock::Scope scope(clock, "snap");
             choice = snapped(input, bits, highest, progress);
+        } catch (const InvalidSolid&) {
+            // A finer grid that is worse is no reason to call the solid invalid.
+            if (failures.empty()) throw;
+            throw VerificationFailed(failures.back());
         }
         const int used = choice.solid.grid.bits;
+        const auto give_up_or_refine = [&](const char* what) {
+            failures.push_back("grid of 2^" + std::to_string(used) + ": " + what);
+            if (used + 2 > highest) throw;
+            bits = used + 2;
+        };
         try {
             TetResult result = on_one_grid(input, options, std::move(choice), clock, progress);
             for (SolidReport& solid : result.report.solids)
@@ -161,9 +170,9 @@ TetResult tetrahedralize(const TetInput& input, const TetOptions& options, Progr
             result.report.quality = tet_quality(result.points, result.tets);
             return result;
         } catch (const VerificationFailed& e) {
-            failures.push_back("grid of 2^" + std::to_string(used) + ": " + e.what());
-            if (used + 2 > highest) throw;
-            bits = used + 2;
+            give_up_or_refine(e.what());
+        } catch (const InvalidSolid& e) {
+            give_up_or_refine(e.what());
         }
     }
 }
