@@ -29,7 +29,7 @@ std::vector<Candidate> candidates_of(const std::vector<int>& planes_of_edges,
     return list;
 }
 
-constexpr std::size_t kBlock = 64;
+constexpr std::size_t kBlock = 64, kChoiceBudget = 2'000'000;
 
 // Ends of the notch edges of a piece, one array per coordinate and padded to whole blocks, so
 // that the compiler can use its vector units.
@@ -90,8 +90,13 @@ int fewest_crossed(const PointTable& points, const std::vector<Candidate>& list,
     for (const Candidate& c : list)
         if (bound[c.plane] < bound[hopeful->plane]) hopeful = &c;
     count(hopeful->plane);
-    for (const Candidate& c : list)
-        if (&c != hopeful && bound[c.plane] < std::max(fewest, 1)) count(c.plane);
+    // In a huge piece some hundred good candidates are as good as all.
+    std::size_t budget = kChoiceBudget / ends.size + 64;
+    for (const Candidate& c : list) {
+        if (&c == hopeful || bound[c.plane] >= std::max(fewest, 1)) continue;
+        if (budget-- == 0) break;
+        count(c.plane);
+    }
     piece.crossed_at_least.clear();
     for (const Candidate& c : list) piece.crossed_at_least.push_back({c.plane, bound[c.plane]});
     for (const Candidate& c : list) bound[c.plane] = 0;
