@@ -3,6 +3,7 @@
 
 from __future__ import annotations
 
+import re
 import tempfile
 import zipfile
 from collections.abc import Sequence
@@ -23,6 +24,8 @@ from OCP.TopExp import TopExp_Explorer
 from OCP.TopoDS import TopoDS, TopoDS_Compound, TopoDS_Shape
 
 from freecad_tetra.errors import UnreadableFile, UnsupportedFormat
+
+_BREP_END = re.compile(rb"\*\s*[+-]\d+\s+\d+\s")  # the shape itself, after the last of its parts
 
 
 def read_shape(path: str | PathLike[str]) -> Any:
@@ -135,8 +138,8 @@ def _brep(file: Path, head: bytes) -> Any:
         raise UnreadableFile(file, "it is not an OpenCascade BREP file")
     if binary:
         return _brep_binary(file)
-    if not _tail(file).strip():
-        raise UnreadableFile(file, "it is truncated")
+    if not _BREP_END.search(_tail(file)):  # OpenCascade would read on at the end for ever
+        raise UnreadableFile(file, "it is truncated (the last line names no shape)")
     builder, shape = BRep_Builder(), TopoDS_Shape()
     if not BRepTools.Read_s(shape, str(file), builder):
         raise UnreadableFile(file, "OpenCascade cannot parse it as BREP")

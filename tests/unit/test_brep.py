@@ -305,6 +305,18 @@ def test_truncated_step_files(tmp_path: Path) -> None:
             as_solid(path)
 
 
+def test_truncated_brep_files(tmp_path: Path) -> None:
+    path = tmp_path / "whole.brep"
+    BRepTools.Write_s(drilled_box(), str(path))
+    whole = path.read_bytes()
+    assert as_solid(path).volume() > 0
+    path = tmp_path / "cut.brep"
+    for part in (*np.linspace(0.02, 0.99, 40), 1 - 4 / len(whole)):
+        path.write_bytes(whole[: int(len(whole) * part)])
+        with pytest.raises(UnreadableFile):
+            as_solid(path)
+
+
 def test_deflections_must_be_positive() -> None:
     for options in (
         {"linear_deflection": 0.0},
