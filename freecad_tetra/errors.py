@@ -22,7 +22,7 @@ class Defect:
         Snake-case name of the cause: ``open_edge``, ``inconsistent_orientation``,
         ``degenerate_triangle``, ``duplicate_triangle``, ``self_crossing``,
         ``nonfinite_coordinate``, ``flat_solid``, ``empty``, ``bad_nesting``,
-        ``non_planar_contact``, ``bad_index``, ``no_solid``.
+        ``non_planar_contact``, ``bad_index``, ``no_solid``, ``scale_out_of_range``.
     message : str
         One line for people.
     vertices, triangles : tuple of int

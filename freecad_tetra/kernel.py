@@ -39,6 +39,8 @@ from freecad_tetra.model import (
     surface_volume,
 )
 
+_LARGEST = 1e60  # products of areas, as lengths to the fourth, stay within doubles
+
 Progress = Callable[[str, float], "bool | None"]
 
 
@@ -149,9 +151,10 @@ def validate(
         given.setdefault("solid", solid.solid_ids)
     found = _call("validate", solid, None, solid.vertices, solid.triangles, given, progress)
     source = np.asarray(found["triangle_source"], np.int32)
+    defects = [_defect(d, solid, None) for d in found["defects"]]
     return Validation(
         solid=solid,
-        defects=tuple(_defect(d, solid, None) for d in found["defects"]),
+        defects=tuple(defects or _scale_defects(solid)),
         triangles=np.asarray(found["triangles"], np.int32).reshape(-1, 3),
         triangle_source=source,
         shell=np.asarray(found["shell"], np.int32),
@@ -160,6 +163,17 @@ def validate(
         counts={str(k): int(v) for k, v in found.get("counts", {}).items()},
         seconds=perf_counter() - start,
     )
+
+
+def _scale_defects(solid: Solid) -> list[Defect]:
+    """Name a size whose volume, a cube, leaves the range of doubles."""
+    if len(solid.vertices) == 0:
+        return []
+    small = np.abs(solid.vertices).max() <= _LARGEST
+    if small and np.ptp(solid.vertices, axis=0).max() >= 1 / _LARGEST:
+        return []
+    message = f"sizes from {1 / _LARGEST:g} to {_LARGEST:g} can be computed; choose another unit"
+    return [Defect("scale_out_of_range", message)]
 
 
 def convex_cells(

@@ -55,6 +55,23 @@ def test_bad_arrays() -> None:
         api.as_solid(([[0, 0, 0]], [[0, 1, 2]]))
 
 
+@pytest.mark.parametrize("scale", [1e300, 1e-300])
+def test_sizes_beyond_doubles_are_refused(scale: float) -> None:
+    shape = shapes.l_prism()
+    for decompose in (api.tetrahedralize, api.convex_cells):
+        with pytest.raises(InvalidSolid) as caught:
+            decompose((shape.vertices * scale, shape.triangles))
+        assert [d.kind for d in caught.value.defects] == ["scale_out_of_range"]
+
+
+@pytest.mark.parametrize("scale", [1e59, 1e-58])
+def test_sizes_far_out_are_computed(scale: float) -> None:
+    shape = shapes.l_prism()
+    for decompose in (api.tetrahedralize, api.convex_cells):
+        report = decompose((shape.vertices * scale, shape.triangles)).report
+        assert report.volume == pytest.approx(10 * scale**3, rel=1e-12)
+
+
 def test_trimesh_itself() -> None:
     trimesh = pytest.importorskip("trimesh", reason="trimesh is not installed")
     assert api.as_solid(trimesh.creation.box((1, 2, 3))).volume() == pytest.approx(6)
