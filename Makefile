@@ -63,13 +63,18 @@ test-kernel: $(STAMPS)/venv
 test-python: $(STAMPS)/install
 	$(BIN)/python -m pytest tests
 
-# Beside CGAL; its package is installed for this target only.
+# Beside CGAL and TetGen, which are installed for this target only, and over growing solids.
 benchmark: $(STAMPS)/install
 	tools/install_debian.sh libcgal-dev
 	cmake -S . -B build/benchmarks -G Ninja -DTETRA_BUILD_BENCHMARKS=ON
 	cmake --build build/benchmarks --target cgal_cells
+	failed=0; \
 	$(BIN)/python benchmarks/cells_vs_cgal.py --cgal build/benchmarks/benchmarks/cgal_cells \
-	    -o benchmarks/results/cells_vs_cgal.json
+	    -o benchmarks/results/cells_vs_cgal.json || failed=1; \
+	$(BIN)/python benchmarks/tets_vs_tetgen.py -o benchmarks/results/tets_vs_tetgen.json || failed=1; \
+	$(BIN)/python benchmarks/growth.py -o benchmarks/results/growth.json \
+	    --plot benchmarks/results/growth.png || failed=1; \
+	exit $$failed
 
 clean:
 	rm -rf build .venv

@@ -4,8 +4,10 @@
 
 Every run is a process of its own. ``cpu`` and ``wall`` are the seconds of the whole call on
 arrays in memory with validation and verification; ``peak`` is the most memory that the process
-ever held, Python and input with it. The families: a torus with bumps, a ball whose corners lie
-on a lattice, and Chazelle's lower-bound family, where N notches cross N others.
+ever held, Python and input with it. The families: a torus with bumps and a ball, both with
+whole-number corners that the kernel's grid of 2**20 steps has ("off-grid" ones are larger than
+that, so that their corners are rounded and restored); and Chazelle's lower-bound family, where N
+notches cross N others. Targets are in `TARGETS`.
 
 Usage: ``growth.py [-o RESULT.json] [--plot PICTURE.png] [--limit S] [--only REGEX]``
 """
@@ -26,6 +28,7 @@ from cells_vs_cgal import timed
 
 TORI = {2 * u * v: (u, v) for u, v in ((25, 20), (50, 50), (100, 100), (250, 200))}
 BALLS = {2 * u * (v - 1): (u, v) for u, v in ((100, 51), (250, 101), (500, 501))}
+BUMPS = 0.3
 NOTCHES = (2, 3, 4, 6, 8, 16, 32)
 CELLS_UP_TO = 5000
 
@@ -61,8 +64,10 @@ def runs() -> list[dict[str, Any]]:
     """Return what there is to run, the light ones first in each family."""
     found: list[dict[str, Any]] = []
     for family, maker, sizes, more in (
-        ("torus", "torus", TORI, [0.3]),
-        ("ball", "sphere", BALLS, []),
+        ("torus", "torus", TORI, [BUMPS, 2**18]),
+        ("torus-off-grid", "torus", TORI, [BUMPS, 2**20]),
+        ("ball", "sphere", BALLS, [2**19]),
+        ("ball-off-grid", "sphere", BALLS, [2**20]),
         ("chazelle", "chazelle", {n: (n,) for n in NOTCHES}, []),
     ):
         for kind in ("tets", "cells"):
@@ -99,7 +104,7 @@ def steiner(row: dict[str, Any]) -> int:
 
 def line_of(row: dict[str, Any]) -> str:
     """Return one line of the table."""
-    start = f"{row['family']:9s} {row['size']:7d} {row['kind']:5s}"
+    start = f"{row['family']:14s} {row['size']:7d} {row['kind']:5s}"
     if row["status"] != "ok":
         return f"{start} {row['status']}"
     share = row["pieces"] / (row["size"] ** 2 if row["family"] == "chazelle" else row["triangles"])
@@ -119,6 +124,7 @@ def draw(rows: list[dict[str, Any]], picture: Path) -> None:
 
     figure, axes = pyplot.subplots(1, 3, figsize=(15, 5), layout="constrained")
     done = [row for row in rows if row["status"] == "ok"]
+    families = list(dict.fromkeys(row["family"] for row in done))
     lines = dict.fromkeys((row["family"], row["kind"]) for row in done)
     columns = (("cpu", 1, "processor seconds"), ("peak", 2**20, "peak memory, MiB"),
                ("pieces", 1, "pieces"))  # fmt: skip
@@ -129,7 +135,7 @@ def draw(rows: list[dict[str, Any]], picture: Path) -> None:
                 [r["triangles"] for r in chosen],
                 [r[key] / unit for r in chosen],
                 "o-" if kind == "tets" else "s--",
-                color={"torus": "C0", "ball": "C1", "chazelle": "C2"}[family],
+                color=f"C{families.index(family)}",
                 label=f"{family}, {kind}",
             )
         axis.set_xlabel("triangles of the input")
@@ -165,7 +171,7 @@ def main(arguments: list[str]) -> int:
     kept = stored(options.output) if options.merge else {}
     rows: list[dict[str, Any]] = []
     print(
-        f"{'family':9s} {'size':>7s} {'kind':5s} {'triangles':>9s} {'pieces':>8s} {'per':>8s}"
+        f"{'family':14s} {'size':>7s} {'kind':5s} {'triangles':>9s} {'pieces':>8s} {'per':>8s}"
         f" {'Steiner':>7s} {'cpu s':>8s} {'wall s':>8s} {'MiB':>8s}"
     )
     for run in runs():
