@@ -34,13 +34,14 @@ CellsOptions exact_planes() {
 std::size_t count(const ConvexCells& cells) { return cells.cell_solid.size(); }
 
 // Six times the cells' volume as doubles; small solids on small grids lose nothing that matters.
-double volume6(const TestSolid& solid) { return testing::volume6(solid).to_double(); }
+double six_volumes(const TestSolid& solid) { return testing::volume6(solid).to_double(); }
 
 TEST(notch_cells, named_solids_have_their_pieces_and_their_volume) {
     for (const testing::NamedSolid& named : testing::named_solids()) {
         const ConvexCells cells = decompose(named.solid, exact_planes());
         EXPECT_TRUE(cells.stats.exact) << named.name;
-        EXPECT_NEAR(6 * cells.stats.volume, volume6(named.solid), 1e-12 * volume6(named.solid))
+        EXPECT_NEAR(6 * cells.stats.volume, six_volumes(named.solid),
+                    1e-12 * six_volumes(named.solid))
             << named.name;
         if (named.cells > 0) {
             EXPECT_EQ(count(cells), static_cast<std::size_t>(named.cells)) << named.name;

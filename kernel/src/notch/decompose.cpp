@@ -29,7 +29,9 @@ class Run {
           reach_(delta > 0 ? 2 * delta : 1e-3),
           out_(out),
           state_(options.seed),
-          progress_(progress) {}
+          progress_(progress) {
+        work_.reach = reach_;
+    }
 
     void cut_all(std::uint64_t seed) {
         Piece whole = build_piece(solid_, out_.classes, out_.points, out_.edges, notches_);

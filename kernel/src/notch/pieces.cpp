@@ -17,9 +17,9 @@ struct Box {
             hi[k] = std::max(hi[k], p[k]);
         }
     }
-    bool holds(const Box& b) const {
+    bool holds(const Box& b, double slack) const {
         for (int k = 0; k < 3; ++k)
-            if (b.lo[k] < lo[k] - 1 || b.hi[k] > hi[k] + 1) return false;
+            if (b.lo[k] < lo[k] - slack || b.hi[k] > hi[k] + slack) return false;
         return true;
     }
 };
@@ -143,24 +143,25 @@ class Splitter {
             auto hole = std::lower_bound(holes.begin(), holes.end(), outer.key,
                                          [&](int c, int key) { return cycles_[c].key < key; });
             for (; hole != holes.end() && cycles_[*hole].key == outer.key; ++hole)
-                if (&cycles_[*hole] != &outer && outer.box.holds(cycles_[*hole].box))
+                if (&cycles_[*hole] != &outer && outer.box.holds(cycles_[*hole].box, work_.reach))
                     unite(cycles_[*hole].surface, outer.surface);
         }
     }
 
-    static double slack(const Box& b) {
+    // No area or volume below what misplaced vertices can make is trusted to be positive.
+    double slack(const Box& b) const {
         double size = 1;
         for (int k = 0; k < 3; ++k) size += b.hi[k] - b.lo[k];
-        return size * 8;
+        return size * work_.reach;
     }
 
     // A surface that may enclose negative volume may be a cavity of any surface around it.
     void join_cavities() {
         for (std::size_t i = 0; i < surfaces_.size(); ++i) {
             const Surface& inner = surfaces_[i];
-            if (inner.volume > 8 * inner.area) continue;
+            if (inner.volume > work_.reach * inner.area) continue;
             for (std::size_t j = 0; j < surfaces_.size(); ++j)
-                if (i != j && surfaces_[j].box.holds(inner.box))
+                if (i != j && surfaces_[j].box.holds(inner.box, work_.reach))
                     unite(static_cast<int>(i), static_cast<int>(j));
         }
     }

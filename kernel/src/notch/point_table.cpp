@@ -45,6 +45,8 @@ int PointTable::add_moved_input(const Vec3i& grid, const HPoint& exact, const Ve
     return append(exact, approx, cell);
 }
 
+int PointTable::add_point(const HPoint& exact) { return intern(exact, to_doubles(exact)); }
+
 int PointTable::add_plane(const Plane& plane) {
     const PlaneKey key = planes_.intern(plane);
     if (key.id == static_cast<int>(unit_.size())) {

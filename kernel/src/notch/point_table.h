@@ -30,7 +30,8 @@ class PointTable {
     int add_input(const Vec3i& point);
     // An input point that lies on three planes of its facets instead of on the grid.
     int add_moved_input(const Vec3i& grid, const HPoint& exact, const Vec3d& approx);
-    int add_plane(const Plane& plane);  // interned; returns key = 2 id + (reversed ? 1 : 0)
+    int add_point(const HPoint& exact);  // interned; marks of planes are the caller's
+    int add_plane(const Plane& plane);   // interned; returns key = 2 id + (reversed ? 1 : 0)
     int input_line(int u, int v);
     int plane_line(int p, int q);
     // The point where a line meets a plane that is not parallel to it; lies on `also` too.

@@ -60,6 +60,7 @@ enum class Extent { notch_components, own_notches, whole_plane };
 
 // Scratch space that lives through a run.
 struct Workspace {
+    double reach = 16;  // grid steps by which vertices may miss their planes
     std::vector<int> side_stamp;
     std::vector<signed char> side;
     std::vector<int> slot_stamp, slot;    // per key
