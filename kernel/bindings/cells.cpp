@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-// convex_cells(): exact convex cells of a valid surface, as a dict.
-#include "tetra/notch/convex_cells.h"
-
+// convex_cells(): exact convex cells of a valid surface, by the method that gives fewer, as a dict.
 #include "convert.h"
+#include "tetra/assemble/cells_of_fences.h"
 #include "tetra/solid/conform_contacts.h"
 #include "tetra/solid/snap.h"
 #include "tetra/solid/validate.h"
@@ -12,11 +11,21 @@ namespace {
 
 constexpr int kNotchBits = 26;  // the finest grid whose predicates fit 256 bits
 
+// `automatic` tries fences too on solids of so few triangles, where they cost little.
+constexpr std::size_t kFencedTriangles = 3000;
+
+enum class Method { bajaj_dey, fences, automatic };
+
+Method to_method(const nb::dict& options) {
+    const auto method = option_or<std::string>(options, "method", "bajaj-dey");
+    if (method == "bajaj-dey") return Method::bajaj_dey;
+    if (method == "fences") return Method::fences;
+    if (method == "auto") return Method::automatic;
+    throw nb::value_error("option method must be auto, bajaj-dey or fences");
+}
+
 CellsOptions to_options(const nb::dict& options) {
     CellsOptions chosen;
-    const auto method = option_or<std::string>(options, "method", "bajaj-dey");
-    if (method != "auto" && method != "bajaj-dey")
-        throw nb::value_error("option method must be auto or bajaj-dey");
     const auto rule = option_or<std::string>(
         options, "rule", option_or(options, "plain", false) ? "plain" : "cover");
     if (rule != "plain" && rule != "cover" && rule != "random")
@@ -38,20 +47,39 @@ CellsOptions to_options(const nb::dict& options) {
     return chosen;
 }
 
-nb::dict to_report(const CellsStats& s, std::size_t cells, std::size_t points, double step) {
+// What was chosen, and how many pieces each method gave or why it gave none.
+struct Outcome {
+    ConvexCells cells;
+    Method method = Method::bajaj_dey;
+    std::vector<std::string> directions;  // of fences, per solid
+    int by_bajaj_dey = -1, by_fences = -1;
+    std::string note;
+};
+
+nb::dict to_report(const Outcome& outcome, double step) {
+    const CellsStats& s = outcome.cells.stats;
     nb::dict counts;
     counts["notches"] = s.notches;
     counts["planes"] = s.planes;
     counts["cuts"] = s.cuts;
     counts["splices"] = s.splices;
     counts["raw_cells"] = s.raw_cells;
-    counts["pieces"] = cells;
-    counts["points"] = points;
+    counts["pieces"] = outcome.cells.cell_solid.size();
+    counts["points"] = outcome.cells.points.size();
+    if (outcome.by_bajaj_dey >= 0) counts["pieces_by_bajaj_dey"] = outcome.by_bajaj_dey;
+    if (outcome.by_fences >= 0) counts["pieces_by_fences"] = outcome.by_fences;
     nb::dict repairs;
     repairs["restarts"] = s.restarts;
     repairs["demoted_classes"] = s.demoted;
     nb::dict report;
-    report["method"] = "bajaj-dey";
+    const bool fenced = outcome.method == Method::fences;
+    report["method"] = fenced ? "fences" : "bajaj-dey";
+    if (fenced) {
+        nb::list directions;
+        for (const std::string& name : outcome.directions) directions.append(name);
+        report["fence_directions"] = directions;
+    }
+    if (!outcome.note.empty()) report["choice"] = outcome.note;
     report["counts"] = counts;
     report["repairs"] = repairs;
     report["flatness"] = s.flatness;
@@ -95,25 +123,82 @@ ConvexCells cells_of(const GridSolid& grid, const std::vector<Vec3d>& vertices,
     }
 }
 
+Outcome by_fences(const GridSolid& grid, const std::vector<Vec3d>& vertices, bool merge,
+                  Progress& progress) {
+    FencedCells fenced = cells_of_fences(grid, vertices, merge, progress);
+    Outcome outcome;
+    outcome.by_fences = static_cast<int>(fenced.cells.cell_solid.size());
+    outcome.cells = std::move(fenced.cells);
+    outcome.method = Method::fences;
+    outcome.directions = std::move(fenced.directions);
+    return outcome;
+}
+
+// Notch cutting first; fences where they are cheap and could win, and where notch cutting failed.
+Outcome by_fewer_pieces(const GridSolid& grid, const std::vector<Vec3d>& vertices,
+                        const CellsOptions& options, Progress& progress) {
+    Outcome cut;
+    try {
+        cut.cells = cells_of(grid, vertices, options, progress);
+    } catch (const VerificationFailed& e) {
+        Outcome fenced = by_fences(grid, vertices, options.merge, progress);
+        fenced.note = std::string("notch cutting failed: ") + e.what();
+        return fenced;
+    }
+    cut.by_bajaj_dey = static_cast<int>(cut.cells.cell_solid.size());
+    if (cut.cells.stats.notches == 0)
+        cut.note = "no notch to resolve";
+    else if (options.rule == NotchRule::plain)
+        cut.note = "the plain method was asked for";
+    else if (grid.triangles.size() > kFencedTriangles)
+        cut.note = "too many triangles to try fences";
+    if (!cut.note.empty()) return cut;
+    try {
+        Outcome fenced = by_fences(grid, vertices, options.merge, progress);
+        Outcome& fewer = fenced.by_fences < cut.by_bajaj_dey ? fenced : cut;
+        fewer.by_bajaj_dey = cut.by_bajaj_dey;
+        fewer.by_fences = fenced.by_fences;
+        fewer.note = "fewer pieces";
+        if (fenced.by_fences == cut.by_bajaj_dey) fewer.note = "as many pieces by fences";
+        return std::move(fewer);
+    } catch (const VerificationFailed& e) {
+        cut.note = std::string("fences failed: ") + e.what();
+    } catch (const InvalidSolid& e) {
+        cut.note = std::string("fences failed: ") + e.what();
+    }
+    return cut;
+}
+
+Outcome run(Method method, const GridSolid& grid, const std::vector<Vec3d>& vertices,
+            const CellsOptions& options, Progress& progress) {
+    if (method == Method::fences) return by_fences(grid, vertices, options.merge, progress);
+    if (method == Method::automatic) return by_fewer_pieces(grid, vertices, options, progress);
+    Outcome outcome;
+    outcome.cells = cells_of(grid, vertices, options, progress);
+    return outcome;
+}
+
 nb::dict convex_cells_arrays(const VertexArray& vertex_array, const TriangleArray& triangle_array,
                              nb::handle solid_ids, const nb::dict& options, nb::object progress) {
     const std::vector<Vec3d> vertices = to_vertices(vertex_array);
     const std::vector<Triangle> triangles = to_triangles(triangle_array);
     const std::vector<int> solid = optional_ids(solid_ids);
     const CellsOptions chosen = to_options(options);
+    const Method method = to_method(options);
     double step = 0;
     Vec3d origin{};
-    ConvexCells cells = without_gil(std::move(progress), [&](Progress& p) {
+    Outcome outcome = without_gil(std::move(progress), [&](Progress& p) {
         const GridSolid grid =
             build_grid_solid(SurfaceView{vertices, triangles, {}, solid}, kNotchBits);
         step = grid.grid.step;
         origin = grid.grid.origin;
         std::vector<Defect> defects = find_defects(grid, p);
         if (!defects.empty()) throw InvalidSolid(std::move(defects));
-        return cells_of(grid, vertices, chosen, p);
+        return run(method, grid, vertices, chosen, p);
     });
+    ConvexCells& cells = outcome.cells;
     nb::dict result;
-    result["report"] = to_report(cells.stats, cells.cell_solid.size(), cells.points.size(), step);
+    result["report"] = to_report(outcome, step);
     if (option_or(options, "exact_points", false)) {
         result["exact_points"] = exact_rows(cells.exact);
         result["grid_origin"] = nb::make_tuple(origin[0], origin[1], origin[2]);
@@ -134,12 +219,13 @@ void bind_cells(nb::module_& m) {
     m.def("convex_cells", &convex_cells_arrays, nb::arg("vertices"), nb::arg("triangles"),
           nb::arg("solid") = nb::none(), nb::arg("options") = nb::dict(),
           nb::arg("progress") = nb::none(),
-          R"(Partition a valid surface into convex cells by notch cutting (Bajaj and Dey 1990).
+          R"(Partition a valid surface into convex cells by notch cutting or fences.
 
 vertices f64 (n, 3); triangles i32 (m, 3) facing outward, index base 0; solid i32 (m,) or None.
-Options: `method` (auto, bajaj-dey), `plain`, `merge` (True), `flatness` (4 grid steps), `tries`
-(1), `seed` (0); for tests `rule` (cover, plain, random), `extent` (notch, whole, random),
-`exact_points` (also return the points as hexadecimal homogeneous grid coordinates).
+Options: `method` (bajaj-dey, fences, auto: fewer pieces), `plain`, `merge` (True), `flatness` (4
+grid steps; of bajaj-dey), `tries` (1), `seed` (0); for tests `rule` (cover, plain, random),
+`extent` (notch, whole, random), `exact_points` (also return the points as hexadecimal homogeneous
+grid coordinates).
 Returns a dict: points f64 (p, 3), point_source i32 (p,), facet_offsets i64 (f+1,),
 facet_vertices i32, facet_source i32 (f,), cell_offsets i64 (c+1,), cell_solid i32 (c,), report.
 Raises InvalidSolid, VerificationFailed, Cancelled.)");
