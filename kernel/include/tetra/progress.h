@@ -17,7 +17,7 @@ struct Cancelled : std::exception {
 // The callback gets (stage, fraction in 0..1) and returns false to cancel. It is called at most
 // every 20 ms, so poll() may stand in inner loops.
 class Progress {
-public:
+  public:
     using Callback = std::function<bool(const std::string& stage, double fraction)>;
 
     Progress() = default;
@@ -31,7 +31,7 @@ public:
         if (!callback_(stage, fraction)) throw Cancelled();
     }
 
-private:
+  private:
     Callback callback_;
     std::chrono::steady_clock::time_point last_{};
 };
