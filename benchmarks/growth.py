@@ -6,8 +6,8 @@ Every run is a process of its own. ``cpu`` and ``wall`` are the seconds of the w
 arrays in memory with validation and verification; ``peak`` is the most memory that the process
 ever held, Python and input with it. The families: a torus with bumps and a ball, both with
 whole-number corners that the kernel's grid of 2**20 steps has ("off-grid" ones are larger than
-that, so that their corners are rounded and restored); and Chazelle's lower-bound family, where N
-notches cross N others. Targets are in `TARGETS`.
+that, so that their corners are rounded and restored; "turned" ones are doubles); and Chazelle's
+lower-bound family, where N notches cross N others. Targets are in `TARGETS`.
 
 Usage: ``growth.py [-o RESULT.json] [--plot PICTURE.png] [--limit S] [--only REGEX]``
 """
@@ -42,9 +42,9 @@ WORKER = """
 import json, resource, sys, time
 sys.path.insert(0, "tests")
 import freecad_tetra, shapes_exact
-maker, arguments, kind, memory = json.loads(sys.argv[1])
+maker, arguments, turn, kind, memory = json.loads(sys.argv[1])
 resource.setrlimit(resource.RLIMIT_AS, (memory, memory))
-surface = getattr(shapes_exact, maker)(*arguments)
+surface = shapes_exact.turned(getattr(shapes_exact, maker)(*arguments), turn)
 solid = freecad_tetra.as_solid(surface)
 call = freecad_tetra.tetrahedralize if kind == "tets" else freecad_tetra.convex_cells
 cpu, wall = time.process_time(), time.perf_counter()
@@ -63,18 +63,22 @@ print(json.dumps({
 def runs() -> list[dict[str, Any]]:
     """Return what there is to run, the light ones first in each family."""
     found: list[dict[str, Any]] = []
-    for family, maker, sizes, more in (
-        ("torus", "torus", TORI, [BUMPS, 2**18]),
-        ("torus-off-grid", "torus", TORI, [BUMPS, 2**20]),
-        ("ball", "sphere", BALLS, [2**19]),
-        ("ball-off-grid", "sphere", BALLS, [2**20]),
-        ("chazelle", "chazelle", {n: (n,) for n in NOTCHES}, []),
+    still = (0, 0, 0)
+    for family, maker, sizes, more, turn in (
+        ("torus", "torus", TORI, [BUMPS, 2**18], still),
+        ("torus-off-grid", "torus", TORI, [BUMPS, 2**20], still),
+        ("ball", "sphere", BALLS, [2**19], still),
+        ("ball-off-grid", "sphere", BALLS, [2**20], still),
+        ("ball-turned", "sphere", BALLS, [2**19], (13, 29, 41)),
+        ("chazelle", "chazelle", {n: (n,) for n in NOTCHES}, [], still),
     ):
         for kind in ("tets", "cells"):
             for size, given in sizes.items():
                 if kind == "tets" or size <= CELLS_UP_TO:
                     run = {"family": family, "size": size, "kind": kind}
-                    found.append({**run, "maker": maker, "arguments": [*given, *more]})
+                    found.append(
+                        {**run, "maker": maker, "arguments": [*given, *more], "turn": turn}
+                    )
     return found
 
 
@@ -85,7 +89,7 @@ def name_of(run: dict[str, Any]) -> str:
 
 def measure(run: dict[str, Any], limit: float, memory: float) -> dict[str, Any]:
     """Return a run with its figures."""
-    job = [run["maker"], run["arguments"], run["kind"], int(memory * 2**30)]
+    job = [run["maker"], run["arguments"], run["turn"], run["kind"], int(memory * 2**30)]
     whole, output = timed([sys.executable, "-c", WORKER, json.dumps(job)], limit)
     figures = json.loads(output) if whole["status"] == "ok" else {}
     row = {k: run[k] for k in ("family", "size", "kind")} | {"status": whole["status"]} | figures
