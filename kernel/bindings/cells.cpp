@@ -12,7 +12,7 @@ namespace {
 constexpr int kNotchBits = 26;  // the finest grid whose predicates fit 256 bits
 
 // `automatic` tries fences too on solids of so few triangles, where they cost little.
-constexpr std::size_t kFencedTriangles = 3000;
+constexpr std::size_t kFencedTriangles = 5000;
 
 enum class Method { bajaj_dey, fences, automatic };
 
