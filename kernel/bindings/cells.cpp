@@ -14,6 +14,10 @@ constexpr int kNotchBits = 26;  // the finest grid whose predicates fit 256 bits
 // `automatic` tries fences too on solids of so few triangles, where they cost little.
 constexpr std::size_t kFencedTriangles = 5000;
 
+// About one cell a notch is the least that most solids need; notches that cross one another make
+// more, and there fences may do better.
+constexpr double kCellsPerNotch = 1.1;
+
 enum class Method { bajaj_dey, fences, automatic };
 
 Method to_method(const nb::dict& options) {
@@ -152,6 +156,8 @@ Outcome by_fewer_pieces(const GridSolid& grid, const std::vector<Vec3d>& vertice
         cut.note = "the plain method was asked for";
     else if (grid.triangles.size() > kFencedTriangles)
         cut.note = "too many triangles to try fences";
+    else if (cut.by_bajaj_dey <= kCellsPerNotch * cut.cells.stats.notches)
+        cut.note = "few notches cross each other";
     if (!cut.note.empty()) return cut;
     try {
         Outcome fenced = by_fences(grid, vertices, options.merge, progress);
