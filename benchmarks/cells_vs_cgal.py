@@ -38,7 +38,7 @@ from freecad_tetra.api import as_solid
 solid = as_solid(sys.argv[1])
 start = time.process_time()
 for _ in range(int(sys.argv[2])):
-    cells = convex_cells(solid)
+    cells = convex_cells(solid, method="bajaj-dey")
 call = (time.process_time() - start) / int(sys.argv[2])
 report = cells.report.to_dict()
 print(json.dumps({
