@@ -7,6 +7,7 @@ Exit codes: 0 done and verified, 2 usage, 3 invalid solid, 4 unreadable or unsup
 
 from __future__ import annotations
 
+import sys
 from collections.abc import Sequence
 
 __all__ = ["main"]
@@ -14,6 +15,10 @@ __all__ = ["main"]
 
 def main(argv: Sequence[str] | None = None) -> int:
     """Run the command line in a worker process and return its exit code."""
-    from freecad_tetra.cli import arguments, supervise
+    try:
+        from freecad_tetra.cli import arguments, supervise
 
-    return supervise.run(arguments.parse(argv))
+        return supervise.run(arguments.parse(argv))
+    except KeyboardInterrupt:  # before the supervisor listens
+        print("cancelled", file=sys.stderr)
+        return 130

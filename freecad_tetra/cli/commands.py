@@ -29,7 +29,11 @@ DONE, USAGE, INVALID, UNREADABLE, UNVERIFIED, CANCELLED = 0, 2, 3, 4, 5, 130
 _DEFECT_LINES = 200
 
 
-def run(arguments: argparse.Namespace, told: Callable[[str], None] | None = None) -> int:
+def run(
+    arguments: argparse.Namespace,
+    told: Callable[[str], None] | None = None,
+    interrupted: Callable[[], bool] = lambda: False,
+) -> int:
     """Run one command in this process and return its exit code; errors go to stderr.
 
     Parameters
@@ -38,6 +42,9 @@ def run(arguments: argparse.Namespace, told: Callable[[str], None] | None = None
         From `freecad_tetra.cli.arguments.parse`.
     told : callable, optional
         ``told(stage)`` is called at every change of stage.
+    interrupted : callable
+        Whether the user asked to stop. Python turns an interrupt of a compiled module's
+        import into an ImportError, so that no error counts once this is true.
     """
     meter = Meter(told)
     commands = {"tets": _tets, "cells": _cells, "info": _info, "check": _check}
@@ -55,6 +62,8 @@ def run(arguments: argparse.Namespace, told: Callable[[str], None] | None = None
         return _fail(arguments, error, UNVERIFIED)
     except TetraError as error:
         meter.clear()
+        if interrupted():
+            error = Cancelled()
         return _fail(arguments, error, exit_code(error))
 
 

@@ -25,6 +25,12 @@ _SET_PARENT_DEATH_SIGNAL = 1
 _READING = ("start", "read", "tessellate")
 
 
+class _Asked:
+    """Whether this process, as the child, was asked to stop."""
+
+    yet = False
+
+
 def run(arguments: argparse.Namespace) -> int:
     """Run one command and return its exit code; without ``fork``, in this process."""
     from freecad_tetra.cli import commands
@@ -51,7 +57,7 @@ def _work(arguments: argparse.Namespace, writing: int) -> int:
     signal.signal(signal.SIGTERM, _interrupt_once)
     code = CANCELLED
     try:
-        code = commands.run(arguments, lambda stage: _tell(writing, stage))
+        code = commands.run(arguments, lambda stage: _tell(writing, stage), lambda: _Asked.yet)
         sys.stdout.flush()
     except KeyboardInterrupt:
         code = CANCELLED
@@ -77,6 +83,7 @@ def _interrupt_once(number: int, frame: FrameType | None) -> None:
     """Interrupt once; a terminal and the parent may both send the signal."""
     signal.signal(signal.SIGINT, signal.SIG_IGN)
     signal.signal(signal.SIGTERM, signal.SIG_IGN)
+    _Asked.yet = True
     raise KeyboardInterrupt
 
 

@@ -19,6 +19,7 @@ import shapes
 
 from freecad_tetra import export
 from freecad_tetra.cli import arguments, commands, supervise
+from freecad_tetra.errors import MissingDependency
 from freecad_tetra.model import Solid
 
 COMMAND = [sys.executable, "-m", "freecad_tetra"]
@@ -279,6 +280,19 @@ def test_ctrl_c_in_opencascade(tmp_path: Path) -> None:
     code, seconds, stderr = interrupted(words, 3.0)
     assert code == 130 and stderr == "cancelled\n"
     assert seconds < 0.5
+
+
+def test_an_interrupted_import_is_no_missing_package(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    def interrupted_import(*_: object, **__: object) -> None:
+        raise MissingDependency("OCP", "reading B-rep models", "cadquery-ocp")
+
+    monkeypatch.setattr(commands.api, "validate", interrupted_import)
+    words = arguments.parse(["info", str(shape_file(tmp_path, shapes.cube()))])
+    assert commands.run(words, None, lambda: True) == 130
+    assert capsys.readouterr().err == "cancelled\n"
+    assert commands.run(words) == 4
 
 
 def test_progress_only_on_a_terminal(tmp_path: Path) -> None:
