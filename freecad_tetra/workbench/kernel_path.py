@@ -16,7 +16,6 @@ from pathlib import Path
 from types import ModuleType
 
 from freecad_tetra._version import __version__
-from freecad_tetra.workbench import compat
 
 MODULE = "_tetra_kernel"
 ROOT = Path(__file__).resolve().parents[2]
@@ -33,6 +32,12 @@ def problem() -> str:
     return ""
 
 
+def file() -> str:
+    """Return the file of the kernel that `bring_in` takes, "" without one."""
+    module = bring_in()
+    return str(getattr(module, "__file__", "") or "") if module is not None else ""
+
+
 def bring_in() -> ModuleType | None:
     """Import the kernel, the first of the right version, else the first that loads, or None."""
     known = sys.modules.get(MODULE)
@@ -40,7 +45,7 @@ def bring_in() -> ModuleType | None:
         return known
     others = []
     for path in candidates():
-        module = _load(path)
+        module = load(path)
         if module is not None and _version_of(module) == __version__:
             return _keep(module)
         if module is not None:
@@ -53,6 +58,8 @@ def bring_in() -> ModuleType | None:
 
 def candidates() -> list[Path]:
     """Return the files that may be the kernel for this Python, in the order of trial."""
+    from freecad_tetra.workbench import compat  # not at hand in the child process
+
     suffixes = importlib.machinery.EXTENSION_SUFFIXES
     builds = sorted(ROOT.glob("build/*/kernel/bindings"))
     folders = [*builds, *sorted(ROOT.glob(".venv/lib*/python*/site-packages"))]
@@ -61,8 +68,8 @@ def candidates() -> list[Path]:
     return [path for path in found if path.is_file()]
 
 
-def _load(path: Path) -> ModuleType | None:
-    """Load one file, or None when it is for another Python."""
+def load(path: Path) -> ModuleType | None:
+    """Load the kernel from one file without keeping it; None when it is for another Python."""
     before = sys.modules.pop(MODULE, None)
     spec = importlib.util.spec_from_file_location(MODULE, path)
     if spec is None or spec.loader is None:
@@ -98,6 +105,8 @@ def _version_of(module: ModuleType) -> str:
 def _advice() -> str:
     if (ROOT / "Makefile").is_file() and (ROOT / "kernel").is_dir():
         return f"Run `make install-freecad` in {ROOT} and start FreeCAD again."
+    from freecad_tetra.workbench import compat
+
     target = compat.package_folders()[0]
     return (
         f"Run `pip install --target {target} --no-deps freecad-tetra=={__version__}` "

@@ -3,11 +3,19 @@
 
 from __future__ import annotations
 
+import dataclasses
+import queue
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from typing import Any
 
-from freecad_tetra.errors import TetraError
+from freecad_tetra import brep
+from freecad_tetra.errors import Cancelled, KernelMissing, TetraError
+from freecad_tetra.workbench import kernel_path, workers
+from freecad_tetra.workbench.child import Message
+
+TASKS = ("tetrahedralize", "convex_cells", "validate")
+_INTERVAL = 0.1  # seconds between two calls of a caller's progress
 
 
 @dataclass(frozen=True)
@@ -35,15 +43,33 @@ class State:
 
 
 class Job:
-    """One task at work; all methods belong to the thread that started it."""
+    """One task at work; all methods belong to the thread that started it.
+
+    Attributes
+    ----------
+    worker : workers.Worker
+    """
+
+    def __init__(self, worker: workers.Worker, shape: Any) -> None:
+        self.worker = worker
+        self._shape = shape
+        self._state = State()
 
     def poll(self) -> State:
         """Return how far it is; at once, save when the child asks for a finer tessellation."""
-        raise NotImplementedError
+        while not self._state.done:
+            try:
+                message = self.worker.inbox.get_nowait()
+            except queue.Empty:
+                break
+            self._take(message)
+        return self._state
 
     def cancel(self) -> None:
-        """End the work within half a second; `poll` tells `Cancelled` from now on."""
-        raise NotImplementedError
+        """End the work at once; `poll` tells `Cancelled` from now on."""
+        if not self._state.done:
+            self.worker.stop()
+            self._end(error=Cancelled())
 
     def wait(self, progress: Callable[[str, float], bool | None] | None = None) -> Any:
         """Block until done and return the result.
@@ -58,7 +84,46 @@ class Job:
         TetraError
             That of the task, `Cancelled` or `WorkerDied`.
         """
-        raise NotImplementedError
+        try:
+            while not self._state.done:
+                if progress is not None:
+                    if progress(self._state.stage, self._state.fraction) is False:
+                        self.cancel()
+                        break
+                try:
+                    self._take(self.worker.inbox.get(timeout=_INTERVAL))
+                except queue.Empty:
+                    continue
+                self.poll()
+        finally:
+            self.cancel()  # nothing works on when the caller's progress raises
+        if self._state.error is not None:
+            raise self._state.error
+        return self._state.result
+
+    def _take(self, message: Message) -> None:
+        kind = message[0]
+        if kind == "progress":
+            self._state = State(message[1], message[2])
+        elif kind == "tessellate":
+            self._answer(*message[1:])
+        elif kind == "result":
+            self._end(result=_frozen(message[1]))
+        elif kind == "error":
+            self._end(error=message[1])
+        else:
+            self._end(error=self.worker.obituary())
+
+    def _answer(self, deflection: brep.Deflection, name: str, only: int | None) -> None:
+        try:
+            self.worker.send(
+                ("solid", brep.tessellate(self._shape, deflection, name=name, only=only))
+            )
+        except TetraError as error:
+            self.worker.send(("error", error))
+
+    def _end(self, result: Any = None, error: TetraError | None = None) -> None:
+        self._state = State(self._state.stage, 1.0, True, result, error)
 
 
 def start(task: str, source: Any, options: Mapping[str, Any] | None = None) -> Job:
@@ -71,5 +136,23 @@ def start(task: str, source: Any, options: Mapping[str, Any] | None = None) -> J
         A shape is tessellated here, in this process and thread, whenever the child asks.
     options : mapping, optional
         Keywords of the function of that name in `freecad_tetra.api`.
+
+    Raises
+    ------
+    KernelMissing
+        With what to run.
     """
-    raise NotImplementedError
+    if task not in TASKS:
+        raise ValueError(f"no task {task}, only {', '.join(TASKS)}")
+    problem = kernel_path.problem()
+    if problem:
+        raise KernelMissing(*problem.split(". ", 1))
+    shape = brep.as_shape(source)
+    worker = workers.hire(kernel_path.file())
+    worker.send(("task", task, None if shape is not None else source, dict(options or {})))
+    return Job(worker, shape)
+
+
+def _frozen(result: Any) -> Any:
+    """Make arrays read-only again, which the way through a pipe has forgotten."""
+    return dataclasses.replace(result) if dataclasses.is_dataclass(result) else result
