@@ -17,7 +17,7 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from pathlib import Path
 from time import monotonic
-from typing import Any, BinaryIO
+from typing import IO, Any
 
 from freecad_tetra.brep import Deflection
 from freecad_tetra.errors import Cancelled, TetraError
@@ -31,7 +31,7 @@ _QUIET = 0.02  # seconds between two messages about one stage
 _SIZE = struct.Struct("<q")
 
 
-def write_message(stream: BinaryIO, message: Message) -> None:
+def write_message(stream: IO[bytes], message: Message) -> None:
     """Write one message, its length first."""
     data = pickle.dumps(message, protocol=4)
     stream.write(_SIZE.pack(len(data)))
@@ -39,7 +39,7 @@ def write_message(stream: BinaryIO, message: Message) -> None:
     stream.flush()
 
 
-def read_message(stream: BinaryIO) -> Message | None:
+def read_message(stream: IO[bytes]) -> Message | None:
     """Read one message; None at the end of the stream."""
     head = stream.read(_SIZE.size)
     if len(head) < _SIZE.size:
@@ -137,7 +137,7 @@ def main(kernel: str) -> None:
     os._exit(0)  # tidying up large arrays is nobody's business
 
 
-def _listen(reading: BinaryIO, inbox: queue.Queue[Message]) -> None:
+def _listen(reading: IO[bytes], inbox: queue.Queue[Message]) -> None:
     """Pass messages on; without a parent there is no work to do."""
     while (message := read_message(reading)) is not None:
         inbox.put(message)

@@ -11,6 +11,7 @@ from typing import Any
 
 from freecad_tetra import brep
 from freecad_tetra.errors import Cancelled, KernelMissing, TetraError
+from freecad_tetra.model import ConvexCells, TetMesh
 from freecad_tetra.workbench import kernel_path, workers
 from freecad_tetra.workbench.child import Message
 
@@ -86,10 +87,10 @@ class Job:
         """
         try:
             while not self._state.done:
-                if progress is not None:
-                    if progress(self._state.stage, self._state.fraction) is False:
-                        self.cancel()
-                        break
+                now = (self._state.stage, self._state.fraction)
+                if progress is not None and progress(*now) is False:
+                    self.cancel()
+                    break
                 try:
                     self._take(self.worker.inbox.get(timeout=_INTERVAL))
                 except queue.Empty:
@@ -155,4 +156,4 @@ def start(task: str, source: Any, options: Mapping[str, Any] | None = None) -> J
 
 def _frozen(result: Any) -> Any:
     """Make arrays read-only again, which the way through a pipe has forgotten."""
-    return dataclasses.replace(result) if dataclasses.is_dataclass(result) else result
+    return dataclasses.replace(result) if isinstance(result, ConvexCells | TetMesh) else result

@@ -5,11 +5,18 @@ from __future__ import annotations
 
 from typing import Any
 
-from freecad_tetra.model import ConvexCells, TetMesh
+import numpy as np
+
+from freecad_tetra.errors import TetraError
+from freecad_tetra.export import brep, brep_tables
+from freecad_tetra.export.brep_tables import Tables
+from freecad_tetra.model import ConvexCells, FloatArray, LongArray, TetMesh
 
 
 def shape_of_pieces(pieces: ConvexCells | TetMesh, explode: float = 0.0) -> Any:
-    """Return a Part.Shape with one solid for each piece, in their order.
+    """Return a Part.Shape with one solid for each piece, in their order; O(n log n).
+
+    Pieces thinner than OpenCascade can tell are left out.
 
     Parameters
     ----------
@@ -20,7 +27,77 @@ def shape_of_pieces(pieces: ConvexCells | TetMesh, explode: float = 0.0) -> Any:
     Returns
     -------
     Part.Shape
-        A CompSolid when `explode` is 0 and the pieces hang together face to face, else a
-        Compound.
+        Pieces that hang together face to face are a CompSolid, when `explode` is 0. The whole
+        is that CompSolid, or a Compound of CompSolids and solids.
+
+    Raises
+    ------
+    TetraError
+        OpenCascade does not read the pieces.
     """
-    raise NotImplementedError
+    import Part
+
+    table = brep_tables.tables(_as_cells(pieces))
+    shifts = _shifts(table, explode) if explode else None
+    whole = [] if explode else _face_to_face(pieces, table)
+    shape = Part.Shape()
+    shape.importBrepFromString(brep.text(table, whole, shifts), False)
+    if shape.isNull() or len(shape.Solids) != len(table.kept):
+        raise TetraError("OpenCascade cannot read the pieces", "please report the part")
+    return shape
+
+
+def pieces_of_faces(pieces: ConvexCells | TetMesh, explode: float = 0.0) -> LongArray:
+    """Return the two pieces at each face of `shape_of_pieces`, (n, 2) int64, -1 for none.
+
+    Row i is about ``Face{i + 1}``; exploded pieces have all faces for themselves.
+    """
+    table = brep_tables.tables(_as_cells(pieces))
+    facets = np.arange(len(table.face))
+    if explode:
+        return np.stack([table.kept[table.piece], np.full(len(facets), -1)], axis=1)
+    sides = table.sides()
+    named = np.where(sides < 0, -1, table.kept[np.maximum(sides, 0)])
+    _, first = np.unique(table.face, return_index=True)
+    return named[np.argsort(first, kind="stable")]
+
+
+def _as_cells(pieces: ConvexCells | TetMesh) -> ConvexCells:
+    return brep_tables.cells_of_tets(pieces) if isinstance(pieces, TetMesh) else pieces
+
+
+def _shifts(table: Tables, explode: float) -> FloatArray:
+    """Return how far each piece moves, (C, 3) float64."""
+    corner_piece = np.repeat(table.piece, np.diff(table.starts))
+    count = np.bincount(corner_piece, minlength=len(table.kept))
+    places = table.points[table.corners]
+    own = np.stack([np.bincount(corner_piece, weights=x, minlength=len(count)) for x in places.T])
+    centres = (own / count).T
+    middle = (places.min(axis=0) + places.max(axis=0)) / 2
+    return explode * (centres - middle)
+
+
+def _face_to_face(pieces: ConvexCells | TetMesh, table: Tables) -> list[LongArray]:
+    """Return the groups of pieces, two or more, that share every inner facet with a neighbour."""
+    sides = table.sides()
+    paired = (sides >= 0).all(axis=1)
+    group = _groups(len(table.kept), sides[paired])
+    ragged = np.zeros(len(table.kept), bool)
+    if isinstance(pieces, ConvexCells):
+        inner = pieces.facet_source[table.facet] < 0
+        ragged[group[table.piece[inner & ~paired[table.face]]]] = True
+    found = [np.flatnonzero(group == g) for g in np.unique(group[~ragged[group]]).tolist()]
+    return [members for members in found if len(members) > 1]
+
+
+def _groups(count: int, pairs: LongArray) -> LongArray:
+    """Return for each of `count` pieces the smallest piece that hangs together with it."""
+    group = np.arange(count)
+    while True:
+        least = group.copy()
+        np.minimum.at(least, pairs[:, 0], group[pairs[:, 1]])
+        np.minimum.at(least, pairs[:, 1], group[pairs[:, 0]])
+        least = least[least]
+        if np.array_equal(least, group):
+            return group
+        group = least
