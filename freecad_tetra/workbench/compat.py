@@ -4,10 +4,14 @@
 from __future__ import annotations
 
 import sys
+from collections.abc import Iterator
+from contextlib import contextmanager
 from pathlib import Path
 from typing import Any
 
 import FreeCAD
+
+from freecad_tetra.errors import TetraError
 
 
 def version() -> tuple[int, int]:
@@ -95,3 +99,12 @@ def millimetres(value: Any) -> float:
 def degrees(value: Any) -> float:
     """Return an angle property (a Quantity, or a float in old documents) in degrees."""
     return float(getattr(value, "Value", value))
+
+
+@contextmanager
+def errors_for_freecad() -> Iterator[None]:
+    """Turn typed errors into those that FreeCAD shows as an object's state, in one line."""
+    try:
+        yield
+    except TetraError as error:
+        raise RuntimeError(str(error)) from None

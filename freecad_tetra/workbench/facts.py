@@ -5,8 +5,9 @@ from __future__ import annotations
 
 from typing import Any
 
-from freecad_tetra.errors import Defect
-from freecad_tetra.workbench import runner
+from freecad_tetra.errors import Defect, InvalidSolid
+from freecad_tetra.kernel import Validation, piece_bound
+from freecad_tetra.workbench import runner, source, store
 
 
 def facts(shape: Any) -> dict[str, Any]:
@@ -19,22 +20,65 @@ def facts(shape: Any) -> dict[str, Any]:
     Returns
     -------
     dict
-        faces, solids, triangles, vertices, notches, genus, volume, diagonal, valid,
-        defects, bound (pieces at most), expected (pieces and seconds of each method).
+        faces, solids, triangles, vertices, notches, genus, bound (pieces at most) : int;
+        volume (mm^3), diagonal (mm) : float; valid : bool; defects : tuple of Defect;
+        expected : dict with ``Tetrahedra`` and ``ConvexCells``, each a dict of pieces and
+        seconds. Nothing is counted in what bounds no solid.
+
+    Raises
+    ------
+    InvalidSolid
+        There is no solid to count.
     """
-    raise NotImplementedError
+    found: dict[str, Any] = start_facts(shape).wait()
+    return found
 
 
 def start_facts(shape: Any) -> runner.Job:
     """Start the same in the background; the job's result is the dict."""
-    raise NotImplementedError
+    job = runner.start("validate", source.shape_of(shape))
+    job.finish = _figures
+    return job
 
 
 def check(obj: Any) -> list[Defect]:
     """Return the defects of an object's solid with FreeCAD's face names, [] for a valid one."""
-    raise NotImplementedError
+    try:
+        return list(facts(obj)["defects"])
+    except InvalidSolid as error:
+        return list(error.defects)
 
 
 def report(obj: Any) -> dict[str, Any]:
-    """Return counts, bounds, volumes and quality histogram of a computed object."""
-    raise NotImplementedError
+    """Return the report of a computed object as plain JSON types, see `freecad_tetra.Report`."""
+    return store.report(obj).to_dict()
+
+
+def expected(triangles: int, notches: int) -> dict[str, dict[str, float]]:
+    """Return pieces and seconds to expect, from the medians of real parts.
+
+    Times are those of one core of an ordinary machine, right within a factor of five or so.
+    """
+    return {
+        "Tetrahedra": {"pieces": round(1.4 * triangles), "seconds": 0.1 + 2e-4 * triangles},
+        "ConvexCells": {"pieces": round(0.9 * notches) + 1, "seconds": 0.1 + 2e-4 * notches},
+    }
+
+
+def _figures(found: Validation) -> dict[str, Any]:
+    counts, solid = found.counts, found.solid
+    notches = counts.get("notches", 0)
+    return {
+        "faces": len(solid.face_names),
+        "solids": counts.get("solids", 0),
+        "triangles": len(found.triangles) if not found.defects else len(solid.triangles),
+        "vertices": len(solid.vertices),
+        "notches": notches,
+        "genus": counts.get("genus", 0),
+        "bound": piece_bound(notches),
+        "volume": abs(solid.volume()),
+        "diagonal": solid.diagonal(),
+        "valid": not found.defects,
+        "defects": found.defects,
+        "expected": expected(len(solid.triangles), notches),
+    }

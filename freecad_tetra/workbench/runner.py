@@ -49,10 +49,13 @@ class Job:
     Attributes
     ----------
     worker : workers.Worker
+    finish : callable
+        Turns what the task returns into the result.
     """
 
     def __init__(self, worker: workers.Worker, shape: Any) -> None:
         self.worker = worker
+        self.finish: Callable[[Any], Any] = lambda found: found
         self._shape = shape
         self._state = State()
 
@@ -109,7 +112,7 @@ class Job:
         elif kind == "tessellate":
             self._answer(*message[1:])
         elif kind == "result":
-            self._end(result=_frozen(message[1]))
+            self._end(result=self.finish(_frozen(message[1])))
         elif kind == "error":
             self._end(error=message[1])
         else:

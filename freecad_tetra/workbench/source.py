@@ -3,22 +3,43 @@
 
 from __future__ import annotations
 
+import hashlib
 from typing import Any
 
+from freecad_tetra import api
+from freecad_tetra.errors import Defect, InvalidSolid
 from freecad_tetra.model import Solid
 
 
 def shape_of(obj: Any) -> Any:
     """Return the Part.Shape of a document object in global coordinates.
 
-    Links, bodies, compounds and objects in containers give what the 3D view shows.
+    Links, bodies, compounds and objects in containers give what the 3D view shows. A shape is
+    returned as it is.
 
     Raises
     ------
     InvalidSolid
         ``no_solid``: the object is gone, has no shape, or its shape holds no solid.
     """
-    raise NotImplementedError
+    import Part
+
+    if obj is None:
+        raise _no_solid("there is no source object, it was deleted", "choose another source")
+    if hasattr(obj, "exportBrepToString"):
+        return obj
+    shape = Part.getShape(obj)
+    if shape is None or shape.isNull() or not shape.Solids:
+        raise _no_solid(
+            f"{obj.Label} holds no solid, only faces, shells, wires or nothing",
+            "make a solid of it and try again",
+        )
+    placed = shape.copy(False)  # shares the geometry, has a placement of its own
+    container = obj.getParentGeoFeatureGroup()
+    while container is not None:
+        placed.Placement = container.Placement.multiply(placed.Placement)
+        container = container.getParentGeoFeatureGroup()
+    return placed
 
 
 def solid_of(
@@ -31,7 +52,7 @@ def solid_of(
 
     Parameters
     ----------
-    obj : document object
+    obj : document object or Part.Shape
     linear : float, optional
         Chord height in mm.
     angular : float, optional
@@ -43,4 +64,20 @@ def solid_of(
     ------
     InvalidSolid
     """
-    raise NotImplementedError
+    return api.as_solid(
+        shape_of(obj),
+        linear_deflection=linear,
+        angular_deflection=angular,
+        relative_deflection=relative,
+        name=getattr(obj, "Label", ""),
+    )
+
+
+def fingerprint(shape: Any, options: str) -> str:
+    """Return what changes whenever the geometry of a shape or `options` do, 64 letters."""
+    text = shape.copy(True, False).exportBrepToString()
+    return hashlib.sha256(f"{options}\n{text}".encode()).hexdigest()
+
+
+def _no_solid(message: str, next_step: str) -> InvalidSolid:
+    return InvalidSolid([Defect("no_solid", message)], message, next_step)

@@ -84,8 +84,8 @@ def _face_to_face(pieces: ConvexCells | TetMesh, table: Tables) -> list[LongArra
     group = _groups(len(table.kept), sides[paired])
     ragged = np.zeros(len(table.kept), bool)
     if isinstance(pieces, ConvexCells):
-        inner = pieces.facet_source[table.facet] < 0
-        ragged[group[table.piece[inner & ~paired[table.face]]]] = True
+        alone = np.flatnonzero((pieces.facet_source[table.facet] < 0) & ~paired[table.face])
+        ragged[group[table.piece[alone]]] = True
     found = [np.flatnonzero(group == g) for g in np.unique(group[~ragged[group]]).tolist()]
     return [members for members in found if len(members) > 1]
 
