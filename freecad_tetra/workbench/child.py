@@ -19,6 +19,7 @@ from pathlib import Path
 from time import monotonic
 from typing import IO, Any
 
+from freecad_tetra import kernel_file
 from freecad_tetra.brep import Deflection
 from freecad_tetra.errors import Cancelled, TetraError
 from freecad_tetra.model import Solid
@@ -123,14 +124,12 @@ class _Progress:
 
 def main(kernel: str) -> None:
     """Be the child process: messages come on stdin and go to stdout."""
-    from freecad_tetra.workbench import kernel_path
-
     reading = os.fdopen(os.dup(0), "rb")
     writing = os.fdopen(os.dup(1), "wb")
     os.dup2(2, 1)  # what anything prints must not get between the messages
-    module = kernel_path.load(Path(kernel)) if kernel else None
+    module = kernel_file.load(Path(kernel)) if kernel else None
     if module is not None:
-        sys.modules[kernel_path.MODULE] = module
+        sys.modules[kernel_file.MODULE] = module
     inbox: queue.Queue[Message] = queue.Queue()
     threading.Thread(target=_listen, args=(reading, inbox), daemon=True).start()
     work(inbox.get, lambda message: write_message(writing, message))

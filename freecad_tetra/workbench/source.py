@@ -4,11 +4,14 @@
 from __future__ import annotations
 
 import hashlib
+import re
 from typing import Any
 
 from freecad_tetra import api
 from freecad_tetra.errors import Defect, InvalidSolid
 from freecad_tetra.model import Solid
+
+_FLAGS = re.compile(r"^[01]{7}$", re.MULTILINE)  # of shapes: checked, modified; meshing sets them
 
 
 def shape_of(obj: Any) -> Any:
@@ -75,7 +78,7 @@ def solid_of(
 
 def fingerprint(shape: Any, options: str) -> str:
     """Return what changes whenever the geometry of a shape or `options` do, 64 letters."""
-    text = shape.copy(True, False).exportBrepToString()
+    text = _FLAGS.sub("", shape.copy(True, False).exportBrepToString())
     return hashlib.sha256(f"{options}\n{text}".encode()).hexdigest()
 
 

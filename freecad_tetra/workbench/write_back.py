@@ -80,7 +80,7 @@ def _shifts(table: Tables, explode: float) -> FloatArray:
 def _face_to_face(pieces: ConvexCells | TetMesh, table: Tables) -> list[LongArray]:
     """Return the groups of pieces, two or more, that share every inner facet with a neighbour."""
     sides = table.sides()
-    paired = (sides >= 0).all(axis=1)
+    paired = (sides[:, 0] >= 0) & (sides[:, 1] >= 0)
     group = _groups(len(table.kept), sides[paired])
     ragged = np.zeros(len(table.kept), bool)
     if isinstance(pieces, ConvexCells):
