@@ -157,16 +157,11 @@ def accept(obj: Any, pieces: Cells | TetMesh) -> None:
 
 
 def make_compound(obj: Any) -> None:
-    """Give an object above MaxPieces its compound all the same, on request.
-
-    Raises
-    ------
-    TetraError
-    """
+    """Give an object above MaxPieces its compound all the same, on request."""
     pieces = pieces_of(obj)
     if pieces is not None:
         obj.MaxPieces = max(obj.MaxPieces, len(pieces))
-        _show(obj)
+        obj.Document.recompute([obj])
 
 
 def options_of(obj: Any) -> dict[str, Any]:
