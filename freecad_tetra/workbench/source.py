@@ -12,6 +12,7 @@ from freecad_tetra.errors import Defect, InvalidSolid
 from freecad_tetra.model import Solid
 
 _FLAGS = re.compile(r"^[01]{7}$", re.MULTILINE)  # of shapes: checked, modified; meshing sets them
+_FRACTION = re.compile(r"-?\d+(?:\.\d+(?:e[+-]?\d+)?|e[+-]?\d+)")
 
 
 def shape_of(obj: Any) -> Any:
@@ -77,9 +78,19 @@ def solid_of(
 
 
 def fingerprint(shape: Any, options: str) -> str:
-    """Return what changes whenever the geometry of a shape or `options` do, 64 letters."""
+    """Return what changes whenever the geometry of a shape or `options` do, 64 letters.
+
+    A document that is saved and opened again changes coordinates in their last digits: nine
+    count, and nothing below a hundredth of OpenCascade's smallest length.
+    """
     text = _FLAGS.sub("", shape.copy(True, False).exportBrepToString())
-    return hashlib.sha256(f"{options}\n{text}".encode()).hexdigest()
+    rounded = _FRACTION.sub(_nine_digits, text)
+    return hashlib.sha256(f"{options}\n{rounded}".encode()).hexdigest()
+
+
+def _nine_digits(found: re.Match[str]) -> str:
+    value = float(found[0])
+    return "0" if abs(value) < 1e-9 else f"{value:.8e}"
 
 
 def _no_solid(message: str, next_step: str) -> InvalidSolid:
