@@ -14,7 +14,8 @@ KERNEL_FILES := CMakeLists.txt $(shell find kernel -type f)
 PACKAGE_FILES := pyproject.toml freecad_tetra/_version.py
 CXX_FILES := $(shell find kernel benchmarks -name '*.cpp' -o -name '*.h')
 
-.PHONY: all demo test lint format tidy test-kernel test-python benchmark clean
+.PHONY: all demo test lint format tidy test-kernel test-python test-freecad install-freecad \
+    benchmark clean
 
 all: $(STAMPS)/install
 
@@ -40,7 +41,7 @@ $(STAMPS)/install: $(STAMPS)/venv $(KERNEL_FILES) $(PACKAGE_FILES)
 demo: $(STAMPS)/install
 	tools/demo.sh
 
-test: lint test-kernel test-python
+test: lint test-kernel test-python test-freecad
 
 lint: $(STAMPS)/install
 	tools/lint.sh
@@ -62,6 +63,20 @@ test-kernel: $(STAMPS)/venv
 
 test-python: $(STAMPS)/install
 	$(BIN)/python -m pytest tests
+
+# The checkout becomes a workbench of the user's FreeCAD.
+install-freecad: export MAKE := $(MAKE)
+install-freecad: export JOBS := $(JOBS)
+install-freecad:
+	tools/install_freecad.sh
+
+# In the real FreeCAD, without a window and with a user folder of its own.
+test-freecad: export MAKE := $(MAKE)
+test-freecad: export JOBS := $(JOBS)
+test-freecad:
+	tools/install_debian.sh freecad g++ cmake ninja-build python3-dev python3-venv
+	QT_QPA_PLATFORM=offscreen tools/install_freecad.sh --kernel-only
+	tests/in_freecad/run_headless
 
 # Beside CGAL and TetGen, which are installed for this target only, and over growing solids.
 benchmark: $(STAMPS)/install
