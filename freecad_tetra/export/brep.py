@@ -29,7 +29,7 @@ def write_cells(cells: ConvexCells, stream: BinaryIO) -> None:
 
     Edges shorter than OpenCascade can tell are closed, and what they bounded goes.
     """
-    stream.write(text(brep_tables.tables(cells)).encode("ascii"))
+    stream.write(text(brep_tables.tables(cells, share=True)).encode("ascii"))
 
 
 def write_tets(mesh: TetMesh, stream: BinaryIO) -> None:
@@ -143,25 +143,37 @@ def _edges(table: Tables, vertices: LongArray, book: _Book) -> Any:
 
 
 def _add_faces(table: Tables, edges: LongArray, book: _Book) -> LongArray:
-    """Add a wire and a face for every face, in blocks of equal size; return the faces."""
-    sizes = np.diff(table.starts)[table.first]
-    wires = np.zeros(len(table.first), np.int64)
+    """Add the wires, in blocks of equal size, and a face for every face; return the faces."""
+    loops, of_face = _loops_of_faces(table)
+    sizes = np.diff(table.starts)[loops]
+    wires = np.zeros(len(loops), np.int64)
     for size in np.unique(sizes).tolist():
         own = np.flatnonzero(sizes == size)
-        wires[own] = book.add("Wi", len(own), _wires(table, table.first[own], size, edges))
-    worst = np.maximum.reduceat(table.slack[table.corners], table.starts[:-1])
+        wires[own] = book.add("Wi", len(own), _wires(table, loops[own], size, edges))
+    corner_slack = table.slack[table.corners]
+    worst = np.maximum.reduceat(corner_slack, table.starts[table.loops[:-1]])
     slack = worst[table.first].tolist()
-    surface = range(1, len(slack) + 1)
+    cuts = np.searchsorted(of_face, np.arange(len(slack) + 1)).tolist()
 
     def body(flags: str, total: int) -> str:
-        form = f"Fa\n0  %r %d 0\n{flags}+%d 0 *\n"
-        return _zipped(form, slack, surface, (total - wires).tolist())
+        words = _words(total - wires)
+        refs = ("".join(words[a:b]) for a, b in pairwise(cuts))
+        form = f"Fa\n0  %r %d 0\n{flags}%s*\n"
+        return _zipped(form, slack, range(1, len(slack) + 1), refs)
 
     return book.add("Fa", len(slack), body)
 
 
-def _wires(table: Tables, facets: LongArray, size: int, edges: LongArray) -> Any:
-    at = table.starts[facets][:, None] + np.arange(size)
+def _loops_of_faces(table: Tables) -> tuple[LongArray, LongArray]:
+    """Return the loops of all faces and the face of each, ascending."""
+    first, count = table.loops[table.first], np.diff(table.loops)[table.first]
+    of_face = np.repeat(np.arange(len(first)), count)
+    inner = np.arange(len(of_face)) - np.repeat(np.cumsum(count) - count, count)
+    return first[of_face] + inner, of_face
+
+
+def _wires(table: Tables, loops: LongArray, size: int, edges: LongArray) -> Any:
+    at = table.starts[loops][:, None] + np.arange(size)
     numbers, forward = edges[table.edge[at]], table.forward[at]
 
     def body(flags: str, total: int) -> str:

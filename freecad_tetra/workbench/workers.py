@@ -82,6 +82,9 @@ class Process:
 
     def _write(self) -> None:
         assert self._process.stdin is not None
+        if hasattr(signal, "pthread_sigmask"):
+            # FreeCAD leaves it to the system what a broken pipe means: the end of FreeCAD.
+            signal.pthread_sigmask(signal.SIG_BLOCK, [signal.SIGPIPE])
         with contextlib.suppress(OSError, ValueError):
             while (message := self._outbox.get()) is not None:
                 child.write_message(self._process.stdin, message)

@@ -12,6 +12,8 @@ from freecad_tetra.export import brep, brep_tables
 from freecad_tetra.export.brep_tables import Tables
 from freecad_tetra.model import ConvexCells, FloatArray, LongArray, TetMesh
 
+_TRIES = 4
+
 
 def shape_of_pieces(pieces: ConvexCells | TetMesh, explode: float = 0.0) -> Any:
     """Return a Part.Shape with one solid for each piece, in their order; O(n log n).
@@ -35,9 +37,33 @@ def shape_of_pieces(pieces: ConvexCells | TetMesh, explode: float = 0.0) -> Any:
     TetraError
         OpenCascade does not read the pieces.
     """
+    if isinstance(pieces, TetMesh):
+        return _shape(pieces, brep_tables.tables(brep_tables.cells_of_tets(pieces)), explode)
+    if explode:
+        return _shape(pieces, brep_tables.tables(pieces), explode)
+    return _shape_of_neighbours(pieces)
+
+
+def _shape_of_neighbours(cells: ConvexCells) -> Any:
+    """Return cells that are divided where they meet.
+
+    Where points are not exact, some may be too thin for OpenCascade once they are divided:
+    those stay as they are.
+    """
+    alone: list[int] = []
+    for _ in range(_TRIES):
+        table = brep_tables.tables(cells, True, alone)
+        shape = _shape(cells, table, 0.0)
+        if table.slack.max() <= brep_tables.TOLERANCE or shape.isValid():
+            return shape
+        faulty = [k for k, solid in enumerate(shape.Solids) if not solid.isValid()]
+        alone += table.kept[faulty].tolist()
+    return _shape(cells, brep_tables.tables(cells), 0.0)
+
+
+def _shape(pieces: ConvexCells | TetMesh, table: Tables, explode: float) -> Any:
     import Part
 
-    table = brep_tables.tables(_as_cells(pieces))
     shifts = _shifts(table, explode) if explode else None
     whole = [] if explode else _face_to_face(pieces, table)
     shape = Part.Shape()
@@ -47,28 +73,9 @@ def shape_of_pieces(pieces: ConvexCells | TetMesh, explode: float = 0.0) -> Any:
     return shape
 
 
-def pieces_of_faces(pieces: ConvexCells | TetMesh, explode: float = 0.0) -> LongArray:
-    """Return the two pieces at each face of `shape_of_pieces`, (n, 2) int64, -1 for none.
-
-    Row i is about ``Face{i + 1}``; exploded pieces have all faces for themselves.
-    """
-    table = brep_tables.tables(_as_cells(pieces))
-    facets = np.arange(len(table.face))
-    if explode:
-        return np.stack([table.kept[table.piece], np.full(len(facets), -1)], axis=1)
-    sides = table.sides()
-    named = np.where(sides < 0, -1, table.kept[np.maximum(sides, 0)])
-    _, first = np.unique(table.face, return_index=True)
-    return named[np.argsort(first, kind="stable")]
-
-
-def _as_cells(pieces: ConvexCells | TetMesh) -> ConvexCells:
-    return brep_tables.cells_of_tets(pieces) if isinstance(pieces, TetMesh) else pieces
-
-
 def _shifts(table: Tables, explode: float) -> FloatArray:
     """Return how far each piece moves, (C, 3) float64."""
-    corner_piece = np.repeat(table.piece, np.diff(table.starts))
+    corner_piece = table.piece[table.facet_of_corner()]
     count = np.bincount(corner_piece, minlength=len(table.kept))
     places = table.points[table.corners]
     own = np.stack([np.bincount(corner_piece, weights=x, minlength=len(count)) for x in places.T])
