@@ -132,11 +132,12 @@ def tables(cells: ConvexCells, share: bool = False, alone: Sequence[int] = ()) -
     alone : sequence of int
         Cells that are not divided all the same.
     """
-    corners, facet = _closed(cells, everywhere=share)
+    corners, facet, flat = _closed(cells, everywhere=share)
     sizes = np.bincount(facet, minlength=len(cells.facet_offsets) - 1)
     cell = np.repeat(np.arange(len(cells)), np.diff(cells.cell_offsets))
     whole = np.bincount(cell, weights=sizes > 2, minlength=len(cells)) > 3
     whole &= ~_too_thin(cells)
+    whole[flat] = False
     keep = (sizes > 2) & whole[cell]
     starts = np.concatenate([[0], np.cumsum(sizes[keep])])
     kept, facets = np.flatnonzero(whole), np.flatnonzero(keep)
@@ -189,37 +190,34 @@ def following(starts: LongArray) -> LongArray:
     return step
 
 
-def _closed(cells: ConvexCells, everywhere: bool) -> tuple[LongArray, LongArray]:
+def _closed(cells: ConvexCells, everywhere: bool) -> tuple[LongArray, LongArray, LongArray]:
     """Return all corners and their facets, with the ends of short edges made one, or all points
-    of one place.
+    of one place; and the cells that fall flat by that.
 
-    Cells as thin as the places are wide would fall flat: their points are left apart.
+    Points of a cell that is as thin as the places are wide are left apart where that helps.
     """
     sizes = np.diff(cells.facet_offsets)
     facet = np.repeat(np.arange(len(sizes)), sizes)
     cell = np.repeat(np.arange(len(cells)), np.diff(cells.cell_offsets))[facet]
     corners = cells.facet_vertices.astype(np.int64)
     if not len(corners):
-        return corners, facet
+        return corners, facet, cell
     after = corners[following(cells.facet_offsets)]
-    pairs = _short(cells.points, np.stack([corners, after], axis=1))
-    keep, closed = _merged(corners, after, pairs)
+    pairs = near = _short(cells.points, np.stack([corners, after], axis=1))
     if everywhere:
-        near = np.stack(imprint.near_segments(cells.points, cells.points, cells.points), axis=1)
-        near = np.concatenate([pairs, _short(cells.points, near[near[:, 0] < near[:, 1]])])
-        flat = np.zeros(len(cells), bool)
-        while True:
-            kept, merged = _merged(corners, after, near)
-            fallen = _flat(cell[kept], facet[kept], merged)
-            fallen = fallen[~flat[fallen]]
-            if not len(fallen):
-                break
-            flat[fallen] = True
-            apart = np.zeros(len(cells.points), bool)
-            apart[corners[flat[cell]]] = True
-            near = np.concatenate([pairs, near[~apart[near].any(axis=1)]])
-        keep, closed = kept, merged
-    return closed, facet[keep]
+        found = imprint.near_segments(cells.points, cells.points, cells.points)
+        other = np.stack(found, axis=1)
+        other = _short(cells.points, other[other[:, 0] < other[:, 1]])
+        near = np.concatenate([pairs, other])
+    apart = np.zeros(len(cells.points), bool)
+    while True:
+        keep, merged = _merged(corners, after, near)
+        flat = _flat(cell[keep], facet[keep], merged)
+        touched = corners[np.isin(cell, flat)]
+        if apart[touched].all():
+            return merged, facet[keep], flat
+        apart[touched] = True
+        near = np.concatenate([pairs, near[~apart[near].any(axis=1)]])
 
 
 def _too_thin(cells: ConvexCells) -> npt.NDArray[np.bool_]:

@@ -59,6 +59,7 @@ def divided(
     parts = [p for p in parts if not (lonely[p.front] or lonely[p.back])]
     loops = [facets.loop(f) for f in range(len(facets.cell))]
     splits = _splits([*loops, *(p.loop for p in parts)], np.array(places.points), reach)
+    _spare_slivers(loops, facets.cell.tolist(), splits)
     for facet in np.flatnonzero(lonely).tolist():
         for a, b in zip(loops[facet], [*loops[facet][1:], loops[facet][0]]):
             splits.pop((min(a, b), max(a, b)), None)
@@ -240,20 +241,23 @@ def _splits(
         inner = out.setdefault((int(edges[s, 0]), int(edges[s, 1])), [])
         if not inner or inner[-1] != p:
             inner.append(p)
-    _spare_slivers(loops, out)
     return out
 
 
 def _spare_slivers(
-    loops: Sequence[Sequence[int]], splits: dict[tuple[int, int], list[int]]
+    loops: Sequence[Sequence[int]], cells: Sequence[int], splits: dict[tuple[int, int], list[int]]
 ) -> None:
-    """Divide no edge at another corner of its own loop, which would come there twice."""
-    for loop in loops:
+    """Divide no edge at another corner of its own cell, which would come there twice."""
+    corners: dict[int, set[int]] = {}
+    for loop, cell in zip(loops, cells):
+        corners.setdefault(cell, set()).update(loop)
+    for loop, cell in zip(loops, cells):
+        own = corners[cell]
         for a, b in zip(loop, [*loop[1:], loop[0]]):
             key = (min(a, b), max(a, b))
             inner = splits.get(key)
-            if inner and not set(loop).isdisjoint(inner):
-                splits[key] = [p for p in inner if p not in loop]
+            if inner and not own.isdisjoint(inner):
+                splits[key] = [p for p in inner if p not in own]
 
 
 def near_segments(
