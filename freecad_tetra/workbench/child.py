@@ -23,6 +23,7 @@ from freecad_tetra import kernel_file
 from freecad_tetra.brep import Deflection
 from freecad_tetra.errors import Cancelled, TetraError
 from freecad_tetra.model import Solid
+from freecad_tetra.workbench.piece_text import piece_text
 
 Message = tuple[Any, ...]
 Send = Callable[[Message], None]
@@ -54,20 +55,29 @@ def read_message(stream: IO[bytes]) -> Message | None:
 def work(receive: Receive, send: Send, stopped: Callable[[], bool] = lambda: False) -> None:
     """Do one task; whatever happens, send ("result", ...) or ("error", TetraError).
 
+    The result comes with the text of its shape, None when it has more pieces than asked for.
+
     Parameters
     ----------
     receive : callable
-        Returns ("task", name, source or None for a shape of the parent's, options), later
-        ("solid", Solid) or ("error", TetraError) in answer to ("tessellate", ...).
+        Returns ("task", name, source or None for a shape of the parent's, options, pieces up to
+        which a shape is wanted), later ("solid", Solid) or ("error", TetraError) in answer to
+        ("tessellate", ...).
     send : callable
         Takes ("progress", stage, fraction) and ("tessellate", deflection, name, only).
     stopped : callable
         Asked whenever there is progress.
     """
     try:
-        _, task, source, options = receive()
+        _, task, source, options, limit = receive()
         shape = _ParentShape(receive, send) if source is None else source
-        send(("result", _tasks()[task](shape, progress=_Progress(send, stopped), **options)))
+        progress = _Progress(send, stopped)
+        found = _tasks()[task](shape, progress=progress, **options)
+        shaped = None
+        if limit and len(found) <= limit:
+            progress("shape", 0.0)
+            shaped = piece_text(found)
+        send(("result", found, shaped))
     except TetraError as error:
         send(("error", error))
     except MemoryError:

@@ -17,10 +17,21 @@ import FreeCAD
 from freecad_tetra.errors import BadOption, TetraError
 from freecad_tetra.model import ConvexCells as Cells
 from freecad_tetra.model import TetMesh
-from freecad_tetra.workbench import compat, progress, properties, runner, source, store, write_back
+from freecad_tetra.workbench import (
+    compat,
+    preferences,
+    progress,
+    properties,
+    runner,
+    source,
+    store,
+    write_back,
+)
 
-# The fingerprint of the input that pieces were made of, until they are stored.
+# The fingerprint of the input that pieces were made of, until they are stored, and the text of
+# their shape, until it is made.
 _made_of: WeakKeyDictionary[Any, str] = WeakKeyDictionary()
+_texts: WeakKeyDictionary[Any, Any] = WeakKeyDictionary()
 
 
 class Tetrahedra(compat.Stateless):
@@ -40,8 +51,9 @@ class Tetrahedra(compat.Stateless):
             shape = source.shape_of(obj.Source)
             mark = source.fingerprint(shape, json.dumps(_options(self, obj)))
             if mark != obj.Fingerprint or not obj.PieceLayout:
-                job = runner.start(self.task, shape, _options(self, obj))
+                job = runner.start(self.task, shape, _options(self, obj), _limit(obj))
                 pieces = progress.wait(job, obj.Label)
+                _texts[pieces] = job.text
                 _keep(obj, pieces, mark)
             _show(obj)
 
@@ -136,10 +148,11 @@ def start(kind: str, source_object: Any, given: Mapping[str, Any]) -> runner.Job
     chosen = _Chosen({name: p.value for name, p in proxy.known.items()} | dict(given))
     shape, options = source.shape_of(source_object), _options(proxy, chosen)
     mark = source.fingerprint(shape, json.dumps(options))
-    job = runner.start(proxy.task, shape, options)
+    limit = int(given.get("MaxPieces", preferences.max_pieces()))
+    job = runner.start(proxy.task, shape, options, 0 if given.get("Explode") else limit)
 
     def finish(pieces: Any) -> Any:
-        _made_of[pieces] = mark
+        _made_of[pieces], _texts[pieces] = mark, job.text
         return pieces
 
     job.finish = finish
@@ -240,6 +253,11 @@ def _keep(obj: Any, pieces: Cells | TetMesh, mark: str) -> None:
     obj.Proxy.pieces = (mark, pieces)
 
 
+def _limit(obj: Any) -> int:
+    """Return up to how many pieces the child makes the text of a shape: exploded ones get none."""
+    return 0 if obj.Explode else int(obj.MaxPieces)
+
+
 def _show(obj: Any) -> None:
     """Make the shape of an object's pieces, or none when they are too many."""
     import Part
@@ -247,6 +265,6 @@ def _show(obj: Any) -> None:
     pieces = pieces_of(obj)
     shape = Part.Shape()
     if pieces is not None and len(pieces) <= obj.MaxPieces:
-        shape = write_back.shape_of_pieces(pieces, float(obj.Explode))
+        shape = write_back.shape_of_pieces(pieces, float(obj.Explode), _texts.pop(pieces, None))
         shape.Placement = obj.Placement
     obj.Shape = shape

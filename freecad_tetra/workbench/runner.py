@@ -14,6 +14,7 @@ from freecad_tetra.errors import Cancelled, KernelMissing, TetraError
 from freecad_tetra.model import ConvexCells, TetMesh
 from freecad_tetra.workbench import kernel_path, workers
 from freecad_tetra.workbench.child import Message
+from freecad_tetra.workbench.piece_text import PieceText
 
 TASKS = ("tetrahedralize", "convex_cells", "validate")
 _INTERVAL = 0.1  # seconds between two calls of a caller's progress
@@ -51,10 +52,13 @@ class Job:
     worker : workers.Worker
     finish : callable
         Turns what the task returns into the result.
+    text : PieceText or None
+        Of the pieces' shape, when one was wanted.
     """
 
     def __init__(self, worker: workers.Worker, shape: Any) -> None:
         self.worker = worker
+        self.text: PieceText | None = None
         self.finish: Callable[[Any], Any] = lambda found: found
         self._shape = shape
         self._state = State()
@@ -112,6 +116,7 @@ class Job:
         elif kind == "tessellate":
             self._answer(*message[1:])
         elif kind == "result":
+            self.text = message[2]
             self._end(result=self.finish(_frozen(message[1])))
         elif kind == "error":
             self._end(error=message[1])
@@ -130,7 +135,9 @@ class Job:
         self._state = State(self._state.stage, 1.0, True, result, error)
 
 
-def start(task: str, source: Any, options: Mapping[str, Any] | None = None) -> Job:
+def start(
+    task: str, source: Any, options: Mapping[str, Any] | None = None, shape_limit: int = 0
+) -> Job:
     """Start a task of `freecad_tetra.api` in a child process and return at once.
 
     Parameters
@@ -140,6 +147,8 @@ def start(task: str, source: Any, options: Mapping[str, Any] | None = None) -> J
         A shape is tessellated here, in this process and thread, whenever the child asks.
     options : mapping, optional
         Keywords of the function of that name in `freecad_tetra.api`.
+    shape_limit : int
+        Up to how many pieces the child also makes the text of their shape.
 
     Raises
     ------
@@ -153,7 +162,8 @@ def start(task: str, source: Any, options: Mapping[str, Any] | None = None) -> J
         raise KernelMissing(*problem.split(". ", 1))
     shape = brep.as_shape(source)
     worker = workers.hire(kernel_path.file())
-    worker.send(("task", task, None if shape is not None else source, dict(options or {})))
+    given = None if shape is not None else source
+    worker.send(("task", task, given, dict(options or {}), shape_limit))
     return Job(worker, shape)
 
 

@@ -5,26 +5,28 @@ from __future__ import annotations
 
 from typing import Any
 
-import numpy as np
-
 from freecad_tetra.errors import TetraError
-from freecad_tetra.export import brep, brep_tables
-from freecad_tetra.export.brep_tables import Tables
-from freecad_tetra.model import ConvexCells, FloatArray, LongArray, TetMesh
+from freecad_tetra.model import ConvexCells, TetMesh
+from freecad_tetra.workbench.piece_text import PieceText, piece_text
 
 _TRIES = 4
 
 
-def shape_of_pieces(pieces: ConvexCells | TetMesh, explode: float = 0.0) -> Any:
+def shape_of_pieces(
+    pieces: ConvexCells | TetMesh, explode: float = 0.0, made: PieceText | None = None
+) -> Any:
     """Return a Part.Shape with one solid for each piece, in their order; O(n log n).
 
-    Pieces thinner than OpenCascade can tell are left out.
+    Pieces thinner than OpenCascade can tell are left out. Where points are not exact, some may
+    be too thin once they are divided: those share less.
 
     Parameters
     ----------
     pieces : ConvexCells or TetMesh
     explode : float
         Every piece moves by this share of the way from the centre of all to its own centre.
+    made : PieceText, optional
+        The text of these pieces at `explode` 0, when it is there already.
 
     Returns
     -------
@@ -37,74 +39,24 @@ def shape_of_pieces(pieces: ConvexCells | TetMesh, explode: float = 0.0) -> Any:
     TetraError
         OpenCascade does not read the pieces.
     """
-    if isinstance(pieces, TetMesh):
-        return _shape(pieces, brep_tables.tables(brep_tables.cells_of_tets(pieces)), explode)
-    if explode:
-        return _shape(pieces, brep_tables.tables(pieces), explode)
-    return _shape_of_neighbours(pieces)
-
-
-def _shape_of_neighbours(cells: ConvexCells) -> Any:
-    """Return cells that are divided where they meet.
-
-    Where points are not exact, some may be too thin for OpenCascade once they are divided:
-    those stay as they are.
-    """
+    if isinstance(pieces, TetMesh) or explode:
+        return _shape(made if made and not explode else piece_text(pieces, explode))
     alone: list[int] = []
     for _ in range(_TRIES):
-        table = brep_tables.tables(cells, True, alone)
-        shape = _shape(cells, table, 0.0)
-        if table.slack.max() <= brep_tables.TOLERANCE or shape.isValid():
+        text = made if made and not alone else piece_text(pieces, 0.0, alone)
+        shape = _shape(text)
+        if text.exact or shape.isValid():
             return shape
         faulty = [k for k, solid in enumerate(shape.Solids) if not solid.isValid()]
-        alone += table.kept[faulty].tolist()
-    return _shape(cells, brep_tables.tables(cells), 0.0)
+        alone += text.kept[faulty].tolist()
+    return _shape(piece_text(pieces, 0.0, None))
 
 
-def _shape(pieces: ConvexCells | TetMesh, table: Tables, explode: float) -> Any:
+def _shape(text: PieceText) -> Any:
     import Part
 
-    shifts = _shifts(table, explode) if explode else None
-    whole = [] if explode else _face_to_face(pieces, table)
     shape = Part.Shape()
-    shape.importBrepFromString(brep.text(table, whole, shifts), False)
-    if shape.isNull() or len(shape.Solids) != len(table.kept):
+    shape.importBrepFromString(text.text, False)
+    if shape.isNull() or len(shape.Solids) != len(text.kept):
         raise TetraError("OpenCascade cannot read the pieces", "please report the part")
     return shape
-
-
-def _shifts(table: Tables, explode: float) -> FloatArray:
-    """Return how far each piece moves, (C, 3) float64."""
-    corner_piece = table.piece[table.facet_of_corner()]
-    count = np.bincount(corner_piece, minlength=len(table.kept))
-    places = table.points[table.corners]
-    own = np.stack([np.bincount(corner_piece, weights=x, minlength=len(count)) for x in places.T])
-    centres = (own / count).T
-    middle = (places.min(axis=0) + places.max(axis=0)) / 2
-    return explode * (centres - middle)
-
-
-def _face_to_face(pieces: ConvexCells | TetMesh, table: Tables) -> list[LongArray]:
-    """Return the groups of pieces, two or more, that share every inner facet with a neighbour."""
-    sides = table.sides()
-    paired = (sides[:, 0] >= 0) & (sides[:, 1] >= 0)
-    group = _groups(len(table.kept), sides[paired])
-    ragged = np.zeros(len(table.kept), bool)
-    if isinstance(pieces, ConvexCells):
-        alone = np.flatnonzero((pieces.facet_source[table.facet] < 0) & ~paired[table.face])
-        ragged[group[table.piece[alone]]] = True
-    found = [np.flatnonzero(group == g) for g in np.unique(group[~ragged[group]]).tolist()]
-    return [members for members in found if len(members) > 1]
-
-
-def _groups(count: int, pairs: LongArray) -> LongArray:
-    """Return for each of `count` pieces the smallest piece that hangs together with it."""
-    group = np.arange(count)
-    while True:
-        least = group.copy()
-        np.minimum.at(least, pairs[:, 0], group[pairs[:, 1]])
-        np.minimum.at(least, pairs[:, 1], group[pairs[:, 0]])
-        least = least[least]
-        if np.array_equal(least, group):
-            return group
-        group = least

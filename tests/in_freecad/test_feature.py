@@ -16,7 +16,14 @@ from parts import InDocument, angle_block, drilled_block, face_uses, placement
 
 from freecad_tetra.errors import BadOption, InvalidSolid
 from freecad_tetra.model import ConvexCells, TetMesh
-from freecad_tetra.workbench import feature, kernel_path, properties, runner, source
+from freecad_tetra.workbench import (
+    feature,
+    kernel_path,
+    properties,
+    runner,
+    source,
+    write_back,
+)
 
 MAKERS = {"Tetrahedra": feature.make_tetrahedra, "ConvexCells": feature.make_convex_cells}
 
@@ -286,6 +293,22 @@ class InBackground(Made):
                 self.doc.recompute()
                 self.assertEqual(started, [])
             self.assertFillsSource(obj, self.surface_volume_at(15.0))
+
+    def test_the_child_makes_the_text_of_the_shape(self) -> None:
+        for kind in MAKERS:
+            job = feature.start(kind, self.cut, {})
+            pieces = job.wait()
+            assert job.text is not None
+            self.assertEqual(len(job.text.kept), len(pieces))
+            obj = self.make_unfilled(kind)
+            feature.accept(obj, pieces)
+            with mock.patch.object(write_back, "piece_text", side_effect=AssertionError("here")):
+                self.doc.recompute()
+            self.assertFillsSource(obj, self.surface_volume(self.cut))
+        for given in ({"MaxPieces": 2}, {"Explode": 0.5}):
+            job = feature.start("ConvexCells", self.cut, given)
+            job.wait()
+            self.assertIsNone(job.text)
 
     def test_pieces_of_another_source_are_computed_again(self) -> None:
         pieces = feature.start("ConvexCells", self.cut, {}).wait()
