@@ -80,7 +80,7 @@ test-freecad:
 
 # Beside CGAL and TetGen, which are installed for this target only, and over growing solids.
 benchmark: $(STAMPS)/install
-	tools/install_debian.sh libcgal-dev
+	tools/install_debian.sh libcgal-dev freecad
 	cmake -S . -B build/benchmarks -G Ninja -DTETRA_BUILD_BENCHMARKS=ON
 	cmake --build build/benchmarks --target cgal_cells
 	failed=0; \
@@ -89,6 +89,7 @@ benchmark: $(STAMPS)/install
 	$(BIN)/python benchmarks/tets_vs_tetgen.py -o benchmarks/results/tets_vs_tetgen.json || failed=1; \
 	$(BIN)/python benchmarks/growth.py -o benchmarks/results/growth.json \
 	    --plot benchmarks/results/growth.png || failed=1; \
+	$(BIN)/python benchmarks/compound_vs_part.py -o benchmarks/results/compound_vs_part.json || failed=1; \
 	exit $$failed
 
 clean:
