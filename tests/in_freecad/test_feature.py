@@ -62,6 +62,9 @@ class Made(InDocument):
 
 
 class Properties(Made):
+    def test_freecad_lists_these_tests(self) -> None:
+        self.assertIn("freecad_tetra.workbench.selftest", FreeCAD.__unit_test__)
+
     def test_objects_have_units_choices_and_results(self) -> None:
         for kind in MAKERS:
             with self.subTest(kind):
