@@ -14,7 +14,8 @@ KERNEL_FILES := CMakeLists.txt $(shell find kernel -type f)
 PACKAGE_FILES := pyproject.toml freecad_tetra/_version.py
 CXX_FILES := $(shell find kernel benchmarks -name '*.cpp' -o -name '*.h')
 
-.PHONY: all demo test lint format tidy test-kernel test-python benchmark clean
+.PHONY: all demo test lint format tidy test-kernel test-python test-freecad install-freecad \
+    benchmark clean
 
 all: $(STAMPS)/install
 
@@ -40,7 +41,7 @@ $(STAMPS)/install: $(STAMPS)/venv $(KERNEL_FILES) $(PACKAGE_FILES)
 demo: $(STAMPS)/install
 	tools/demo.sh
 
-test: lint test-kernel test-python
+test: lint test-kernel test-python test-freecad
 
 lint: $(STAMPS)/install
 	tools/lint.sh
@@ -63,9 +64,23 @@ test-kernel: $(STAMPS)/venv
 test-python: $(STAMPS)/install
 	$(BIN)/python -m pytest tests
 
+# The checkout becomes a workbench of the user's FreeCAD.
+install-freecad: export MAKE := $(MAKE)
+install-freecad: export JOBS := $(JOBS)
+install-freecad:
+	tools/install_freecad.sh
+
+# In the real FreeCAD, without a window and with a user folder of its own.
+test-freecad: export MAKE := $(MAKE)
+test-freecad: export JOBS := $(JOBS)
+test-freecad:
+	tools/install_debian.sh freecad g++ cmake ninja-build python3-dev python3-venv
+	QT_QPA_PLATFORM=offscreen tools/install_freecad.sh --kernel-only
+	tests/in_freecad/run_headless
+
 # Beside CGAL and TetGen, which are installed for this target only, and over growing solids.
 benchmark: $(STAMPS)/install
-	tools/install_debian.sh libcgal-dev
+	tools/install_debian.sh libcgal-dev freecad
 	cmake -S . -B build/benchmarks -G Ninja -DTETRA_BUILD_BENCHMARKS=ON
 	cmake --build build/benchmarks --target cgal_cells
 	failed=0; \
@@ -74,6 +89,7 @@ benchmark: $(STAMPS)/install
 	$(BIN)/python benchmarks/tets_vs_tetgen.py -o benchmarks/results/tets_vs_tetgen.json || failed=1; \
 	$(BIN)/python benchmarks/growth.py -o benchmarks/results/growth.json \
 	    --plot benchmarks/results/growth.png || failed=1; \
+	$(BIN)/python benchmarks/compound_vs_part.py -o benchmarks/results/compound_vs_part.json || failed=1; \
 	exit $$failed
 
 clean:

@@ -45,7 +45,8 @@ def as_solid(
     Parameters
     ----------
     source : path, Solid, shape, trimesh or (vertices, triangles)
-        A shape is a cadquery or build123d object or an OCP ``TopoDS_Shape``.
+        A shape is a cadquery or build123d object, an OCP ``TopoDS_Shape``, or inside FreeCAD
+        a ``Part.Shape``.
     linear_deflection : float, optional
         Chord height in mm; overrides `relative_deflection`.
     relative_deflection : float, optional
@@ -255,7 +256,7 @@ def _stage(progress: Progress | None, stage: str) -> None:
 
 
 def _shape(source: Any) -> tuple[Any | None, str]:
-    """Return (TopoDS_Shape, name) for B-rep inputs, (None, "") for all others."""
+    """Return (shape, name) for B-rep inputs, (None, "") for all others."""
     if isinstance(source, str | PathLike):
         path = Path(fspath(source))
         if path.suffix.lower() in brep.SUFFIXES:

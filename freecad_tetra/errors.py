@@ -85,6 +85,17 @@ class TetraError(Exception):
     def __str__(self) -> str:
         return f"{self.message}; {self.next_step}" if self.next_step else self.message
 
+    def __reduce__(self) -> tuple[Any, ...]:
+        """Keep all attributes on the way to another process, whatever ``__init__`` takes."""
+        return _revived, (type(self), self.args, self.__dict__)
+
+
+def _revived(kind: type[TetraError], args: tuple[Any, ...], state: dict[str, Any]) -> TetraError:
+    error = kind.__new__(kind, *args)
+    error.args = args
+    error.__dict__.update(state)
+    return error
+
 
 class InvalidSolid(TetraError):
     """The input is readable but does not bound a solid; ``defects`` says where."""
@@ -150,6 +161,10 @@ class Cancelled(TetraError):
 
     def __init__(self, message: str = "cancelled", next_step: str = "") -> None:
         super().__init__(message, next_step)
+
+
+class WorkerDied(TetraError):
+    """The child process that did the work was killed or crashed; nothing was changed."""
 
 
 class KernelMissing(TetraError):

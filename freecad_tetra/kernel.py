@@ -17,6 +17,7 @@ from typing import Any
 
 import numpy as np
 
+from freecad_tetra import kernel_file
 from freecad_tetra._version import __version__
 from freecad_tetra.errors import (
     BadOption,
@@ -53,9 +54,11 @@ def load() -> Any:
         It is absent, does not load, or is of another version.
     """
     try:
-        module = importlib.import_module("_tetra_kernel")
+        module: Any = importlib.import_module("_tetra_kernel")
     except ImportError as error:
-        raise KernelMissing(f"the compiled module _tetra_kernel does not load: {error}") from error
+        module = kernel_file.bring_in()
+        if module is None:
+            raise KernelMissing(f"the compiled module does not load: {error}") from error
     found = module.version()
     if found != __version__:
         raise KernelMissing(

@@ -28,6 +28,7 @@ CXX_ALLOWED: dict[str, set[str]] = {
 
 PYTHON_RANK = {
     "_version": 0,
+    "kernel_file": 1,
     "errors": 0,
     "model": 1,
     "kernel": 2,

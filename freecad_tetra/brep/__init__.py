@@ -2,7 +2,7 @@
 """B-rep models become triangulated solids; OCP is imported on first use only.
 
 FreeCAD brings an OpenCascade of its own, and two of them in one process crash: inside
-FreeCAD this package refuses to load OCP.
+FreeCAD this package refuses to load OCP, and takes FreeCAD's shapes instead.
 """
 
 from __future__ import annotations
@@ -46,7 +46,7 @@ def _require_ocp() -> None:
     if "FreeCAD" in sys.modules:
         raise TetraError(
             "OCP cannot be loaded inside FreeCAD (two OpenCascades in one process)",
-            "pass a Part.Shape through freecad_tetra.workbench, or use the command line",
+            "pass a Part.Shape, or use the command line",
         )
     try:
         import OCP.TopoDS  # noqa: F401
@@ -68,7 +68,16 @@ def read_shape(path: str | PathLike[str]) -> Any:
 
 
 def as_shape(value: Any) -> Any | None:
-    """Return the TopoDS_Shape inside a cadquery, build123d or OCP object, or None."""
+    """Return the shape inside a cadquery, build123d, OCP or FreeCAD object, or None.
+
+    It is a TopoDS_Shape, or an object that tessellates itself by a method ``tessellated``.
+    """
+    if hasattr(value, "tessellated"):
+        return value
+    if hasattr(value, "exportBrepToString"):  # FreeCAD's Part.Shape
+        from freecad_tetra.brep.part import PartShape
+
+        return PartShape(value)
     if hasattr(value, "toCompound"):  # cadquery Assembly
         value = value.toCompound()
     if hasattr(value, "vals") and callable(value.vals):  # cadquery Workplane
@@ -96,11 +105,11 @@ def tessellate(
     name: str = "",
     only: int | None = None,
 ) -> Solid:
-    """Tessellate all solids of a TopoDS_Shape once, welded through shared edges.
+    """Tessellate all solids of a shape once, welded through shared edges.
 
     Parameters
     ----------
-    shape : TopoDS_Shape
+    shape : TopoDS_Shape, or anything that `as_shape` returns
     deflection : Deflection
     name : str
     only : int, optional
@@ -116,6 +125,9 @@ def tessellate(
     InvalidSolid
         ``no_solid`` when the shape holds none, ``no_mesh`` when a face has no triangles.
     """
+    if hasattr(shape, "tessellated"):
+        found: Solid = shape.tessellated(deflection or Deflection(), name, only)
+        return found
     _require_ocp()
     from freecad_tetra.brep import mesh
 

@@ -1,11 +1,5 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""One tessellation of a B-rep, whose faces meet in the nodes of their shared edges.
-
-Nodes are identified by topology: the i-th node of an edge is one node in every face that
-the edge bounds, its ends are the edge's vertices, and all nodes of a degenerate edge are its
-one vertex. Distance decides nothing; only nodes with equal coordinates are merged afterwards,
-which joins solids that touch without sharing topology.
-"""
+"""One tessellation of a B-rep by OCP, whose faces meet in the nodes of their shared edges."""
 
 from __future__ import annotations
 
@@ -26,6 +20,7 @@ from OCP.TopoDS import TopoDS
 from OCP.TopTools import TopTools_IndexedMapOfShape
 
 from freecad_tetra.brep import Deflection
+from freecad_tetra.brep.weld import Nodes, compact
 from freecad_tetra.errors import Defect, InvalidSolid
 from freecad_tetra.model import Solid
 
@@ -56,15 +51,15 @@ def tessellate(shape: Any, deflection: Deflection, name: str, only: int | None) 
             solid_ids.append(np.full(len(triangles), number, np.int32))
     if faces.bare:
         raise InvalidSolid([_no_mesh(faces.bare, mesh.GetStatusFlags())])
-    triangles = faces.welded(np.concatenate(rows)) if rows else np.zeros((0, 3), np.int32)
+    triangles = faces.nodes.welded(np.concatenate(rows)) if rows else np.zeros((0, 3), np.int32)
     notes = {
         "linear_deflection": linear,
         "angular_deflection": deflection.angular,
         "brep_volume": _volume([s for _, s in solids]),
         "solids": len(solids),
     }
-    return _compact(
-        faces.points(), triangles, np.concatenate(face_ids), np.concatenate(solid_ids),
+    return compact(
+        faces.nodes.points(), triangles, np.concatenate(face_ids), np.concatenate(solid_ids),
         tuple(f"Face{i + 1}" for i in range(faces.count)), name, notes,
     )  # fmt: skip
 
@@ -123,9 +118,7 @@ class _Faces:
         self.count = self._table.Extent()
         self.bare: list[int] = []
         self._triangles: dict[int, np.ndarray[Any, Any]] = {}
-        self._points: list[tuple[float, float, float]] = []
-        self._parent: list[int] = []
-        self._key: dict[tuple[int, int], int] = {}
+        self.nodes = Nodes()
 
     def number(self, face: Any) -> int:
         """Return the 0-based number of a face, as FreeCAD counts them."""
@@ -145,14 +138,14 @@ class _Faces:
         if mesh is None or mesh.NbTriangles() == 0:
             self.bare.append(number)
             return np.zeros((0, 3), np.int64)
-        base = len(self._points)
+        points = []
         move = None if location.IsIdentity() else location.Transformation()
         for i in range(1, mesh.NbNodes() + 1):
             node = mesh.Node(i)
             if move is not None:
                 node = node.Transformed(move)
-            self._points.append((node.X(), node.Y(), node.Z()))
-        self._parent.extend(range(base, len(self._points)))
+            points.append((node.X(), node.Y(), node.Z()))
+        base = self.nodes.add(np.array(points, dtype=np.float64).reshape(-1, 3))
         for edge in _explore(face, EDGE):
             self._weld_edge(edge, mesh, location, base)
         corners = [mesh.Triangle(i).Get() for i in range(1, mesh.NbTriangles() + 1)]
@@ -170,51 +163,6 @@ class _Faces:
         forward = TopoDS.Edge_s(edge.Oriented(FORWARD))
         first = self._vertices.Add(TopExp.FirstVertex_s(forward))
         last = self._vertices.Add(TopExp.LastVertex_s(forward))
-        if BRep_Tool.Degenerated_s(edge):
-            for node in nodes:
-                self._join((0, first), node)
-            return
-        number = self._edges.Add(edge)
-        self._join((0, first), nodes[0])
-        self._join((0, last), nodes[-1])
-        for i, node in enumerate(nodes[1:-1], 1):
-            self._join((number, i), node)
-
-    def _join(self, key: tuple[int, int], node: int) -> None:
-        known = self._key.setdefault(key, node)
-        a, b = self._find(known), self._find(node)
-        if a != b:
-            self._parent[max(a, b)] = min(a, b)
-
-    def _find(self, node: int) -> int:
-        parent = self._parent
-        while parent[node] != node:
-            parent[node] = parent[parent[node]]
-            node = parent[node]
-        return node
-
-    def welded(self, triangles: np.ndarray[Any, Any]) -> np.ndarray[Any, Any]:
-        """Return `triangles` with every node replaced by the first of its class."""
-        root = np.array([self._find(i) for i in range(len(self._parent))], dtype=np.int64)
-        return root[triangles]
-
-    def points(self) -> np.ndarray[Any, Any]:
-        """Return the coordinates of all nodes, (n, 3), -0.0 turned into 0.0."""
-        return np.array(self._points, dtype=np.float64).reshape(-1, 3) + 0.0
-
-
-def _compact(
-    points: Any, triangles: Any, face_ids: Any, solid_ids: Any,
-    names: tuple[str, ...], name: str, notes: dict[str, Any],
-) -> Solid:  # fmt: skip
-    """Merge equal coordinates, drop unused nodes and triangles with two equal corners."""
-    used, inverse = np.unique(triangles, return_inverse=True)
-    _, first, same = np.unique(points[used], axis=0, return_index=True, return_inverse=True)
-    rank = np.argsort(np.argsort(first, kind="stable"), kind="stable")
-    triangles = rank[same.reshape(-1)][inverse.reshape(-1)].reshape(-1, 3)
-    keep = (triangles != np.roll(triangles, 1, axis=1)).all(axis=1)
-    notes["collapsed_triangles"] = int((~keep).sum())
-    return Solid(
-        points[used][np.sort(first)], triangles[keep], face_ids[keep], names, name,
-        solid_ids[keep], notes,
-    )  # fmt: skip
+        point = BRep_Tool.Degenerated_s(edge)
+        number = 0 if point else self._edges.Add(edge)
+        self.nodes.weld_edge(nodes, number, first, last, point)

@@ -45,7 +45,7 @@ def parser() -> argparse.ArgumentParser:
 
 def _tets(command: argparse.ArgumentParser) -> None:
     _common(command)
-    _output(command, ".vtu .msh .inp .mesh .vtk .obj (skin)")
+    _output(command, ".vtu .msh .inp .mesh .vtk .brep .obj (skin)")
     command.add_argument(
         "--method", choices=("chazelle-palios", "bajaj-dey"), default="chazelle-palios"
     )

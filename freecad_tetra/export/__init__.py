@@ -15,7 +15,7 @@ from freecad_tetra.model import ConvexCells, Solid, TetMesh
 Writer = Callable[[Any, BinaryIO], None]
 
 CELL_SUFFIXES = (".obj", ".vtu", ".glb", ".brep", ".step", ".stp")
-TET_SUFFIXES = (".vtu", ".msh", ".msh2", ".inp", ".mesh", ".vtk", ".obj")
+TET_SUFFIXES = (".vtu", ".msh", ".msh2", ".inp", ".mesh", ".vtk", ".obj", ".brep")
 SURFACE_SUFFIXES = (".off",)
 
 
@@ -27,7 +27,7 @@ def write(result: ConvexCells | TetMesh | Solid, path: str | PathLike[str], orde
     result : ConvexCells, TetMesh or Solid
     path : path
         Cells: .obj .vtu .glb .brep .step; tetrahedra: .vtu .msh (4.1) .msh2 (2.2) .inp .mesh
-        .vtk .obj (skin); a Solid: .off.
+        .vtk .obj (skin) .brep; a Solid: .off.
     order : {1, 2}
         Nodes per edge of tetrahedra, less one; 2 puts a node in the middle of each edge.
 
@@ -82,10 +82,12 @@ def _cell_writer(suffix: str) -> Writer:
 
 
 def _tet_writer(suffix: str, order: int) -> Writer:
-    from freecad_tetra.export import elements, inp, medit, msh, obj, vtk, vtu
+    from freecad_tetra.export import brep, elements, inp, medit, msh, obj, vtk, vtu
 
     if suffix == ".obj":
         return obj.write_skin
+    if suffix == ".brep":
+        return brep.write_tets
     if suffix == ".mesh" and order == 2:
         raise UnsupportedFormat("Medit .mesh is written in first order only", "use order 1")
     writer = {
