@@ -10,10 +10,6 @@ from freecad_tetra.workbench import places
 class TetraWorkbench(FreeCADGui.Workbench):
     """Convex cells and tetrahedra of solids."""
 
-    MenuText = FreeCAD.Qt.translate("Workbench", "Tetra")
-    ToolTip = FreeCAD.Qt.translate("Workbench", "Exact convex cells and tetrahedra of solids")
-    Icon = places.icon("tetra")
-
     def Initialize(self):
         """FreeCAD calls this when the workbench is opened for the first time."""
         from freecad_tetra.workbench import gui
@@ -42,6 +38,13 @@ class TetraWorkbench(FreeCADGui.Workbench):
         """FreeCAD asks for the C++ class behind."""
         return "Gui::PythonWorkbench"
 
+
+# FreeCAD runs this file by exec: a class body does not see the names imported above.
+TetraWorkbench.MenuText = "Tetra"
+TetraWorkbench.ToolTip = FreeCAD.Qt.translate(
+    "Workbench", "Exact convex cells and tetrahedra of solids"
+)
+TetraWorkbench.Icon = places.icon("tetra")
 
 FreeCADGui.addIconPath(places.ICONS)
 FreeCADGui.addLanguagePath(places.TRANSLATIONS)

@@ -39,6 +39,19 @@ def qt() -> tuple[Any, Any, Any]:
     return QtCore, QtGui, QtWidgets
 
 
+def button_code(button: Any) -> int:
+    """Return a standard button as the int that task panels give: Qt 6 has enums for them."""
+    return int(getattr(button, "value", button))
+
+
+def alive(obj: Any) -> bool:
+    """Whether a document object is still in its document; False for None."""
+    try:
+        return obj is not None and obj.Document.getObject(obj.Name) is not None
+    except (AttributeError, ReferenceError, RuntimeError):
+        return False
+
+
 class Stateless:
     """A proxy whose document stores its class and nothing else; all data are properties.
 

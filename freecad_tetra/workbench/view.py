@@ -9,15 +9,26 @@ from __future__ import annotations
 
 from typing import Any
 
+import FreeCAD
 from pivy import coin
 
-from freecad_tetra.workbench import compat, piece_scene, places, selection
+from freecad_tetra.workbench import compat, piece_scene, places, preferences, selection
+
+translate = FreeCAD.Qt.translate
 
 PIECES = "Pieces"
+STYLE = ("LineColor", "LineWidth", "Transparency")
 
 
 class ViewProviderPieces(compat.Stateless):
-    """Shows the pieces of one object; the scene is made anew when a document is opened."""
+    """Shows the pieces of one object; what it holds is made anew when a document is opened.
+
+    Attributes
+    ----------
+    scene : piece_scene.Scene
+    mode : str
+        The display mode that is on.
+    """
 
     icon = "tetra"
     mode = PIECES
@@ -29,6 +40,7 @@ class ViewProviderPieces(compat.Stateless):
     def attach(self, view: Any) -> None:
         """FreeCAD calls this when the view provider gets its object."""
         self.scene = piece_scene.Scene()
+        self.object = view.Object
         view.addDisplayMode(self.scene.root, PIECES)
         self._style(view)
         self._show(view.Object)
@@ -42,8 +54,15 @@ class ViewProviderPieces(compat.Stateless):
 
     def onChanged(self, view: Any, name: str) -> None:
         """FreeCAD calls this after a change of how the object looks."""
-        if name in ("LineColor", "LineWidth", "Transparency") and hasattr(self, "scene"):
+        if name in STYLE and hasattr(self, "scene"):
             self._style(view)
+
+    def onDelete(self, view: Any, elements: Any) -> bool:
+        """FreeCAD calls this before the object is deleted: the solid is seen again."""
+        source = getattr(view.Object, "Source", None)
+        if source is not None:
+            source.ViewObject.Visibility = True
+        return True
 
     def _show(self, obj: Any) -> None:
         from freecad_tetra.workbench import feature
@@ -51,10 +70,9 @@ class ViewProviderPieces(compat.Stateless):
         self.scene.show(feature.pieces_of(obj), explosion(obj))
 
     def _style(self, view: Any) -> None:
-        names = view.PropertiesList
-        if "LineColor" in names and "LineWidth" in names:
-            self.scene.set_lines(True, view.LineWidth, tuple(view.LineColor[:3]))
-        if "Transparency" in names:
+        if all(name in view.PropertiesList for name in STYLE):
+            lines = preferences.show_edges()
+            self.scene.set_lines(lines, view.LineWidth, tuple(view.LineColor[:3]))
             self.scene.set_transparency(view.Transparency / 100.0)
 
     def getDisplayModes(self, view: Any) -> list[str]:
@@ -78,7 +96,7 @@ class ViewProviderPieces(compat.Stateless):
 
     def getDetail(self, element: str) -> Any:
         """Return what to highlight for the name of a piece."""
-        if not element.startswith("Solid") or not element[5:].isdigit():
+        if self.mode != PIECES or not (element.startswith("Solid") and element[5:].isdigit()):
             raise NotImplementedError
         detail = coin.SoFaceDetail()
         detail.setPartIndex(int(element[5:]) - 1)
@@ -92,3 +110,39 @@ class ViewProviderPieces(compat.Stateless):
         """Return what the tree shows below the object: the solid that it is made of."""
         source = getattr(self.object, "Source", None)
         return [source] if source is not None else []
+
+    def setEdit(self, view: Any, mode: int) -> bool:
+        """Open the task panel on a double click."""
+        import FreeCADGui
+
+        from freecad_tetra.workbench.panels import decompose
+
+        obj = view.Object
+        if mode != 0 or obj.Source is None:
+            return False
+        FreeCADGui.Control.showDialog(decompose.Decompose(selection.kind_of(obj), obj.Source, obj))
+        return True
+
+    def unsetEdit(self, view: Any, mode: int) -> bool:
+        """Close the task panel."""
+        import FreeCADGui
+
+        FreeCADGui.Control.closeDialog()
+        return True
+
+
+class ViewProviderTetrahedra(ViewProviderPieces):
+    """Shows tetrahedra."""
+
+    icon = "Tetra_Tetrahedralize"
+
+
+class ViewProviderConvexCells(ViewProviderPieces):
+    """Shows convex cells."""
+
+    icon = "Tetra_ConvexCells"
+
+
+def explosion(obj: Any) -> float:
+    """Return by which factor the pieces are drawn apart."""
+    return float(getattr(obj, "Explode", 0.0))

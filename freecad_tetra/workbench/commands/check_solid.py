@@ -4,7 +4,7 @@
 from __future__ import annotations
 
 from freecad_tetra.workbench import kernel_path, selection
-from freecad_tetra.workbench.commands.command import Command, opened, translate
+from freecad_tetra.workbench.commands.command import QT_TRANSLATE_NOOP, Command, opened
 
 
 class CheckSolid(Command):
@@ -15,8 +15,8 @@ class CheckSolid(Command):
     def texts(self) -> tuple[str, str]:
         """Return (menu text, tool tip)."""
         return (
-            translate("Tetra_CheckSolid", "Check solid"),
-            translate(
+            QT_TRANSLATE_NOOP("Tetra_CheckSolid", "Check solid"),
+            QT_TRANSLATE_NOOP(
                 "Tetra_CheckSolid",
                 "Lists what is wrong with the selected solid and selects the faces at fault",
             ),

@@ -12,6 +12,7 @@ from freecad_tetra.errors import TetraError
 from freecad_tetra.workbench import messages
 
 translate = FreeCAD.Qt.translate
+QT_TRANSLATE_NOOP = FreeCAD.Qt.QT_TRANSLATE_NOOP
 
 
 class Command:
@@ -26,7 +27,7 @@ class Command:
     name = ""
 
     def texts(self) -> tuple[str, str]:
-        """Return (menu text, tool tip), to be translated under the command's name."""
+        """Return (menu text, tool tip), which FreeCAD translates under the name."""
         raise NotImplementedError
 
     def why_not(self) -> str:

@@ -6,7 +6,7 @@ from __future__ import annotations
 from typing import Any
 
 from freecad_tetra.workbench import kernel_path, selection
-from freecad_tetra.workbench.commands.command import Command, opened, translate
+from freecad_tetra.workbench.commands.command import QT_TRANSLATE_NOOP, Command, opened
 from freecad_tetra.workbench.selection import CONVEX_CELLS
 
 
@@ -18,8 +18,8 @@ class ConvexCells(Command):
     def texts(self) -> tuple[str, str]:
         """Return (menu text, tool tip)."""
         return (
-            translate("Tetra_ConvexCells", "Convex cells"),
-            translate(
+            QT_TRANSLATE_NOOP("Tetra_ConvexCells", "Convex cells"),
+            QT_TRANSLATE_NOOP(
                 "Tetra_ConvexCells",
                 "Cuts the selected solid into closed convex pieces "
                 "that cover it exactly once",

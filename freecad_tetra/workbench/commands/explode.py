@@ -4,7 +4,7 @@
 from __future__ import annotations
 
 from freecad_tetra.workbench import selection
-from freecad_tetra.workbench.commands.command import Command, opened, translate
+from freecad_tetra.workbench.commands.command import QT_TRANSLATE_NOOP, Command, opened
 
 
 class Explode(Command):
@@ -15,8 +15,8 @@ class Explode(Command):
     def texts(self) -> tuple[str, str]:
         """Return (menu text, tool tip)."""
         return (
-            translate("Tetra_Explode", "Explode"),
-            translate("Tetra_Explode", "Draws the pieces of the selected object apart by a factor"),
+            QT_TRANSLATE_NOOP("Tetra_Explode", "Explode"),
+            QT_TRANSLATE_NOOP("Tetra_Explode", "Draws the pieces of the selected object apart by a factor"),
         )
 
     def why_not(self) -> str:

@@ -4,7 +4,7 @@
 from __future__ import annotations
 
 from freecad_tetra.workbench import selection
-from freecad_tetra.workbench.commands.command import Command, opened, translate
+from freecad_tetra.workbench.commands.command import QT_TRANSLATE_NOOP, Command, opened
 
 
 class Report(Command):
@@ -15,8 +15,8 @@ class Report(Command):
     def texts(self) -> tuple[str, str]:
         """Return (menu text, tool tip)."""
         return (
-            translate("Tetra_Report", "Report"),
-            translate(
+            QT_TRANSLATE_NOOP("Tetra_Report", "Report"),
+            QT_TRANSLATE_NOOP(
                 "Tetra_Report",
                 "Shows counts, bounds, volumes and the quality of the selected object's pieces",
             ),

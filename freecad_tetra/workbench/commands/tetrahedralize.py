@@ -6,7 +6,7 @@ from __future__ import annotations
 from typing import Any
 
 from freecad_tetra.workbench import kernel_path, selection
-from freecad_tetra.workbench.commands.command import Command, opened, translate
+from freecad_tetra.workbench.commands.command import QT_TRANSLATE_NOOP, Command, opened
 from freecad_tetra.workbench.selection import TETRAHEDRA
 
 
@@ -18,8 +18,8 @@ class Tetrahedralize(Command):
     def texts(self) -> tuple[str, str]:
         """Return (menu text, tool tip)."""
         return (
-            translate("Tetra_Tetrahedralize", "Tetrahedralize"),
-            translate(
+            QT_TRANSLATE_NOOP("Tetra_Tetrahedralize", "Tetrahedralize"),
+            QT_TRANSLATE_NOOP(
                 "Tetra_Tetrahedralize",
                 "Fills the selected solid with tetrahedra that meet face to face "
                 "and keep its surface exactly",

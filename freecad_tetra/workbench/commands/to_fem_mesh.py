@@ -4,7 +4,7 @@
 from __future__ import annotations
 
 from freecad_tetra.workbench import kernel_path, selection
-from freecad_tetra.workbench.commands.command import Command, opened, translate
+from freecad_tetra.workbench.commands.command import QT_TRANSLATE_NOOP, Command, opened
 from freecad_tetra.workbench.selection import TETRAHEDRA
 
 
@@ -16,8 +16,8 @@ class ToFemMesh(Command):
     def texts(self) -> tuple[str, str]:
         """Return (menu text, tool tip)."""
         return (
-            translate("Tetra_ToFemMesh", "To FEM mesh"),
-            translate(
+            QT_TRANSLATE_NOOP("Tetra_ToFemMesh", "To FEM mesh"),
+            QT_TRANSLATE_NOOP(
                 "Tetra_ToFemMesh",
                 "Makes a FEM mesh of the selected solid or of its tetrahedra: "
                 "nodes, volume elements and faces of the skin",
