@@ -30,12 +30,10 @@ def solid() -> tuple[Any, str]:
 
 def result(kinds: tuple[str, ...] = (TETRAHEDRA, CONVEX_CELLS)) -> tuple[Any, str]:
     """Return (object, "") of the one selected result of this workbench, or (None, why not)."""
-    chosen, reason = one_object()
-    if reason:
-        return None, reason
-    if kind_of(chosen) not in kinds:
+    chosen = FreeCADGui.Selection.getSelection()
+    if len(chosen) != 1 or kind_of(chosen[0]) not in kinds:
         return None, translate("Tetra", "Select an object made by Tetrahedralize or Convex cells")
-    return chosen, ""
+    return chosen[0], ""
 
 
 def one_object() -> tuple[Any, str]:

@@ -1,0 +1,115 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""What the tests of the window share: waiting, pictures, boxes, parts, and a clean end."""
+
+from __future__ import annotations
+
+import os
+import time
+import unittest
+from collections.abc import Callable
+from pathlib import Path
+from typing import Any
+
+import FreeCAD
+import FreeCADGui
+import Part
+
+from freecad_tetra.workbench import compat
+
+ROOT = Path(compat.__file__).resolve().parents[2]
+PICTURES = Path(os.environ.get("TETRA_SCREENSHOTS", ROOT / "build/screenshots"))
+QtCore, QtGui, QtWidgets = compat.qt()
+
+
+def pump(seconds: float = 0.3) -> None:
+    """Let the window live for a while."""
+    end = time.monotonic() + seconds
+    while time.monotonic() < end:
+        QtWidgets.QApplication.processEvents()
+        time.sleep(0.005)
+
+
+def wait_for(condition: Callable[[], Any], what: str, seconds: float = 60.0) -> float:
+    """Let the window live until a condition holds; returns how long it took."""
+    start = time.monotonic()
+    while not condition():
+        if time.monotonic() - start > seconds:
+            raise AssertionError(f"waited {seconds} s in vain for {what}")
+        QtWidgets.QApplication.processEvents()
+        time.sleep(0.005)
+    return time.monotonic() - start
+
+
+def take_picture(name: str) -> Path:
+    """Save what the screen shows and return the file."""
+    pump(0.5)
+    path = PICTURES / f"{name}.png"
+    screen = QtWidgets.QApplication.primaryScreen()
+    if not screen.grabWindow(0).save(str(path)):
+        raise AssertionError(f"cannot write {path}")
+    return path
+
+
+def status() -> str:
+    """Return the line in the status bar."""
+    return FreeCADGui.getMainWindow().statusBar().currentMessage()
+
+
+def tip(command: str) -> str:
+    """Return what the status bar says while the mouse is over a command's button."""
+    return FreeCADGui.Command.get(command).getAction()[0].statusTip()
+
+
+def report_view() -> str:
+    """Return all that FreeCAD's report view shows."""
+    window = FreeCADGui.getMainWindow()
+    found = [w for w in window.findChildren(QtWidgets.QTextEdit) if "eport" in w.objectName()]
+    assert found, "no report view"
+    return "\n".join(w.toPlainText() for w in found)
+
+
+def select(*objects: Any) -> None:
+    """Select objects as a click in the tree does."""
+    FreeCADGui.Selection.clearSelection()
+    for obj in objects:
+        FreeCADGui.Selection.addSelection(obj)
+    pump(0.1)
+
+
+def read(name: str) -> Any:
+    """Return the shape of a file that lies beside the checkout or in its resources."""
+    shape = Part.Shape()
+    shape.read(str(ROOT / name))
+    return shape
+
+
+class WindowTest(unittest.TestCase):
+    """Each test gets a new document in the workbench, and leaves no panel and no traceback."""
+
+    def setUp(self) -> None:
+        FreeCADGui.activateWorkbench("TetraWorkbench")
+        self.doc = FreeCAD.newDocument("Test")
+        pump(0.2)
+        self.told = len(report_view())
+
+    def tearDown(self) -> None:
+        if FreeCADGui.Control.activeDialog():
+            FreeCADGui.Control.closeDialog()
+        for name in list(FreeCAD.listDocuments()):
+            FreeCAD.closeDocument(name)
+        pump(0.2)
+        self.assertNotIn("Traceback", report_view()[self.told :])
+
+    def add(self, shape: Any, name: str = "Part") -> Any:
+        """Add a shape to the document as an object, and show all."""
+        obj = self.doc.addObject("Part::Feature", name)
+        obj.Shape = shape
+        self.doc.recompute()
+        FreeCADGui.ActiveDocument.ActiveView.viewIsometric()
+        FreeCADGui.SendMsgToActiveView("ViewFit")
+        pump(0.1)
+        return obj
+
+    def names(self) -> list[str]:
+        """Return the names of the document's objects."""
+        return [obj.Name for obj in self.doc.Objects]
