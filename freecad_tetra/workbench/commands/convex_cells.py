@@ -21,8 +21,7 @@ class ConvexCells(Command):
             QT_TRANSLATE_NOOP("Tetra_ConvexCells", "Convex cells"),
             QT_TRANSLATE_NOOP(
                 "Tetra_ConvexCells",
-                "Cuts the selected solid into closed convex pieces "
-                "that cover it exactly once",
+                "Cuts the selected solid into closed convex pieces that cover it exactly once",
             ),
         )
 

@@ -16,7 +16,9 @@ class Explode(Command):
         """Return (menu text, tool tip)."""
         return (
             QT_TRANSLATE_NOOP("Tetra_Explode", "Explode"),
-            QT_TRANSLATE_NOOP("Tetra_Explode", "Draws the pieces of the selected object apart by a factor"),
+            QT_TRANSLATE_NOOP(
+                "Tetra_Explode", "Draws the pieces of the selected object apart by a factor"
+            ),
         )
 
     def why_not(self) -> str:

@@ -128,9 +128,7 @@ class Decompose:
             raise
         document.commitTransaction()
         said = translate("Tetra", "{0} pieces, volume error {1:.0e}, {2:.1f} s")
-        self._say(
-            said.format(number(len(pieces)), self.result.VolumeError, self.result.Seconds)
-        )
+        self._say(said.format(number(len(pieces)), self.result.VolumeError, self.result.Seconds))
 
     def _fill(self, document: Any, pieces: Any) -> None:
         chosen = self.choices.values()

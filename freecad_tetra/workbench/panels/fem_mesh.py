@@ -1,1 +1,2 @@
-class ToFemMesh: pass
+class ToFemMesh:
+    pass

@@ -69,7 +69,9 @@ def rows(report: Mapping[str, Any]) -> list[tuple[str, str]]:
     """Return (title, text) of the figures to show; those that are not there are left out."""
     counts, quality = report.get("counts") or {}, report.get("quality") or {}
     bound = (report.get("bounds") or {}).get("bajaj_dey")
-    steiner = [v for k, v in counts.items() if k in ("steiner_edge", "steiner_facet", "steiner_inner")]
+    steiner = [
+        v for k, v in counts.items() if k in ("steiner_edge", "steiner_facet", "steiner_inner")
+    ]
     pieces = counts.get("tets", counts.get("pieces"))
     found = [
         (translate("Tetra", "Method"), report.get("method")),
@@ -97,7 +99,9 @@ def histograms(quality: Mapping[str, Any]) -> list[tuple[str, list[int], list[fl
         ("histogram", translate("Tetra", "Mean ratios, 1 is regular")),
     ]
     return [
-        (title, quality[name], quality[name + "_bounds"]) for name, title in known if name in quality
+        (title, quality[name], quality[name + "_bounds"])
+        for name, title in known
+        if name in quality
     ]
 
 
