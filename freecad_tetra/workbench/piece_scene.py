@@ -44,6 +44,7 @@ class Scene:
         self._line_style = coin.SoDrawStyle()
         self._line_switch = coin.SoSwitch()
         self._drawing: Drawing | None = None
+        self._pieces: ConvexCells | TetMesh | None = None
         self._build()
 
     def _build(self) -> None:
@@ -75,6 +76,10 @@ class Scene:
 
     def show(self, pieces: ConvexCells | TetMesh | None, factor: float) -> None:
         """Show other pieces, drawn apart by `factor`; None shows nothing."""
+        if pieces is not None and pieces is self._pieces:
+            self.explode(factor)
+            return
+        self._pieces = pieces
         if pieces is None:
             self._drawing = None
             for field in (self._faces.coordIndex, self._lines.coordIndex):

@@ -12,6 +12,7 @@ from typing import Any
 import FreeCAD
 from pivy import coin
 
+from freecad_tetra.errors import TetraError
 from freecad_tetra.workbench import compat, piece_scene, places, preferences, selection
 
 translate = FreeCAD.Qt.translate
@@ -106,6 +107,13 @@ class ViewProviderPieces(compat.Stateless):
         """Return the icon of the tree."""
         return places.icon(self.icon)
 
+    def setupContextMenu(self, view: Any, menu: Any) -> None:
+        """Offer what only this object can do when it is clicked with the right button."""
+        obj = view.Object
+        action = menu.addAction(translate("Tetra", "Make solids of the pieces"))
+        action.setEnabled(not obj.Shape.Solids)
+        action.triggered.connect(lambda *checked: make_solids(obj))
+
     def claimChildren(self) -> list[Any]:
         """Return what the tree shows below the object: the solid that it is made of."""
         source = getattr(self.object, "Source", None)
@@ -141,6 +149,20 @@ class ViewProviderConvexCells(ViewProviderPieces):
     """Shows convex cells."""
 
     icon = "Tetra_ConvexCells"
+
+
+def make_solids(obj: Any) -> None:
+    """Give an object that is only drawn its solids, as one step that can be undone."""
+    from freecad_tetra.workbench import feature, messages
+
+    obj.Document.openTransaction(translate("Tetra", "Make solids of the pieces"))
+    try:
+        feature.make_compound(obj)
+    except TetraError as error:
+        obj.Document.abortTransaction()
+        messages.show_error(error)
+        return
+    obj.Document.commitTransaction()
 
 
 def explosion(obj: Any) -> float:
