@@ -59,6 +59,7 @@ class Choices:
 
     def _pick(self, name: str, title: str, known: list[tuple[str, str]], start: Any) -> None:
         box = self._widgets.QComboBox()
+        box.setSizeAdjustPolicy(self._widgets.QComboBox.AdjustToMinimumContentsLengthWithIcon)
         for value, text in known:
             box.addItem(text, value)
         box.setCurrentIndex(max(0, box.findData(str(start[name]))))

@@ -31,6 +31,7 @@ class Explode:
         form.setWindowTitle(translate("Tetra", "Explode"))
         self.slider = widgets.QSlider(core.Qt.Horizontal)
         self.slider.setRange(0, STEPS)
+        self.slider.setObjectName("TetraFactor")
         self.box = widgets.QDoubleSpinBox()
         self.box.setRange(0.0, MOST)
         self.box.setSingleStep(0.1)

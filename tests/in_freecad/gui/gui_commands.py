@@ -6,7 +6,18 @@ from __future__ import annotations
 import FreeCAD
 import FreeCADGui
 import Part
-from window import WindowTest, pump, report_view, select, status, take_picture, tip
+from window import (
+    QtCore,
+    QtGui,
+    QtWidgets,
+    WindowTest,
+    pump,
+    report_view,
+    select,
+    status,
+    take_picture,
+    tip,
+)
 
 COMMANDS = [
     "Tetra_Tetrahedralize",
@@ -55,6 +66,37 @@ class Commands(WindowTest):
         self.assertEqual(self.active(), ON_SOLIDS)
         self.assertIn("Fills the selected solid", tip("Tetra_Tetrahedralize"))
         take_picture("commands")
+
+    def context_menu(self) -> list[str]:
+        """Return what a click with the right button on the object in the tree offers for it."""
+        window = FreeCADGui.getMainWindow()
+        trees = [t for t in window.findChildren(QtWidgets.QTreeWidget) if t.isVisible()]
+        tree = max(trees, key=lambda t: t.height())
+        item = tree.findItems("Part", QtCore.Qt.MatchContains | QtCore.Qt.MatchRecursive)[0]
+        place = tree.visualItemRect(item).center()
+        found: list[str] = []
+
+        def look() -> None:
+            menu = QtWidgets.QApplication.activePopupWidget()
+            try:
+                for own in menu.findChildren(QtWidgets.QMenu):
+                    if own.title() == "Tetra":
+                        found.extend(action.text() for action in own.actions())
+            finally:
+                menu.close()
+
+        QtCore.QTimer.singleShot(500, look)
+        event = QtGui.QContextMenuEvent(
+            QtGui.QContextMenuEvent.Mouse, place, tree.viewport().mapToGlobal(place)
+        )
+        QtWidgets.QApplication.sendEvent(tree.viewport(), event)
+        pump(0.7)
+        return found
+
+    def test_context_menu_offers_what_can_work(self) -> None:
+        select(self.add(Part.makeBox(1, 1, 1)))
+        texts = ["Tetrahedralize", "Convex cells", "To FEM mesh", "Check solid"]
+        self.assertEqual(self.context_menu(), texts)
 
     def refused(self, obj: object, word: str) -> None:
         """Nothing happens, the status bar says why, the document is as it was."""

@@ -113,3 +113,33 @@ class WindowTest(unittest.TestCase):
     def names(self) -> list[str]:
         """Return the names of the document's objects."""
         return [obj.Name for obj in self.doc.Objects]
+
+
+def widget(name: str, kind: Any = None) -> Any:
+    """Return a widget of the open task panel by its name."""
+    found = FreeCADGui.getMainWindow().findChildren(kind or QtWidgets.QWidget, name)
+    assert found, f"no widget {name}"
+    return found[-1]
+
+
+def children_at_work() -> list[int]:
+    """Return the ids of the child processes in which the kernel works."""
+    found = []
+    for path in Path("/proc").glob("[0-9]*"):
+        try:
+            parent = int((path / "stat").read_text().rsplit(")", 1)[1].split()[1])
+            state = (path / "stat").read_text().rsplit(")", 1)[1].split()[0]
+            if parent == os.getpid() and state != "Z":
+                if b"freecad_tetra" in (path / "cmdline").read_bytes():
+                    found.append(int(path.name))
+        except (OSError, ValueError, IndexError):
+            continue
+    return found
+
+
+def widen_panel() -> None:
+    """Give the task panel the room that it needs for a picture."""
+    window = FreeCADGui.getMainWindow()
+    docks = [d for d in window.findChildren(QtWidgets.QDockWidget) if d.isVisible()]
+    left = [d for d in docks if window.dockWidgetArea(d) == QtCore.Qt.LeftDockWidgetArea]
+    window.resizeDocks(left, [380] * len(left), QtCore.Qt.Horizontal)
