@@ -8,6 +8,7 @@ from typing import Any
 import FreeCAD
 
 GROUP = "User parameter:BaseApp/Preferences/Mod/Tetra"
+# In the order of the page's boxes, which store indices.
 CELL_METHODS = ("auto", "bajaj-dey", "fences")
 DIRECTIONS = ("auto", "x", "y", "z")
 
@@ -22,8 +23,8 @@ def max_pieces() -> int:
     return int(group().GetInt("MaxPieces", 10_000))
 
 
-def properties() -> dict[str, Any]:
-    """Return the properties of a new object, lengths in mm and angles in degrees."""
+def choices() -> dict[str, Any]:
+    """Return what the task panels start with, lengths in mm and angles in degrees."""
     stored = group()
     return {
         "Method": _chosen(CELL_METHODS, stored.GetInt("CellMethod", 0)),

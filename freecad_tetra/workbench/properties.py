@@ -10,7 +10,7 @@ from typing import Any
 import FreeCAD
 
 from freecad_tetra.errors import BadOption
-from freecad_tetra.workbench import compat
+from freecad_tetra.workbench import compat, preferences
 
 QT_TRANSLATE_NOOP = FreeCAD.Qt.QT_TRANSLATE_NOOP
 
@@ -125,19 +125,13 @@ FEM_MESH: dict[str, Property] = {
 }  # fmt: skip
 
 
-def default_limit() -> int:
-    """Return up to how many pieces an object becomes solids, from the preferences."""
-    stored = FreeCAD.ParamGet("User parameter:BaseApp/Preferences/Mod/Tetra")
-    return int(stored.GetInt("MaxPieces", 10_000))
-
-
 def add(obj: Any, known: Mapping[str, Property]) -> None:
     """Give an object all properties that it lacks, with the values of new objects."""
     for name, wanted in known.items():
         if name in obj.PropertiesList:
             continue
         obj.addProperty(wanted.kind, name, wanted.group, wanted.tip, wanted.flags)
-        value = default_limit() if name == "MaxPieces" else wanted.value
+        value = preferences.max_pieces() if name == "MaxPieces" else wanted.value
         if value is not None:
             setattr(obj, name, value)
 

@@ -11,6 +11,7 @@ import FreeCADGui
 
 from freecad_tetra.errors import Defect, InvalidSolid, TetraError
 from freecad_tetra.workbench import compat, facts, messages
+from freecad_tetra.workbench.panels.defect_text import line
 from freecad_tetra.workbench.panels.work import Work
 from freecad_tetra.workbench.runner import State
 
@@ -25,6 +26,7 @@ class Check:
         self.defects: tuple[Defect, ...] = ()
         self.work = Work(self._told, self._ended)
         self.form = self._layout()
+        self.work.end_with(self.form)
         self.verdict.setText(translate("Tetra", "Checking {0}...").format(source.Label))
         try:
             self.work.follow(facts.start_facts(source))
@@ -59,7 +61,6 @@ class Check:
 
     def reject(self) -> bool:
         """FreeCAD calls this for Close and Esc; the selected faces stay selected."""
-        self.work.drop()
         FreeCADGui.Control.closeDialog()
         return True
 
@@ -104,31 +105,3 @@ class Check:
         FreeCADGui.Selection.clearSelection()
         for face in dict.fromkeys(faces):
             FreeCADGui.Selection.addSelection(self.source, face)
-
-
-def line(defect: Defect) -> str:
-    """Return a defect as one line: what it is, where, and the kernel's words."""
-    where = ", ".join(defect.faces[:12])
-    if len(defect.faces) > 12:
-        where += ", ..."
-    return f"{title(defect.kind)}{' (' + where + ')' if where else ''}: {defect.message}"
-
-
-def title(kind: str) -> str:
-    """Return what a kind of defect is called in the window."""
-    known = {
-        "open_edge": translate("Tetra", "Open edge"),
-        "inconsistent_orientation": translate("Tetra", "Face turned inside out"),
-        "degenerate_triangle": translate("Tetra", "Triangle without area"),
-        "duplicate_triangle": translate("Tetra", "Surface that lies twice"),
-        "self_crossing": translate("Tetra", "Surface that crosses itself"),
-        "nonfinite_coordinate": translate("Tetra", "Coordinate that is no number"),
-        "flat_solid": translate("Tetra", "Solid without volume"),
-        "empty": translate("Tetra", "Nothing there"),
-        "bad_nesting": translate("Tetra", "Shells nested wrongly"),
-        "non_planar_contact": translate("Tetra", "Contact that is not planar"),
-        "bad_index": translate("Tetra", "Missing vertex"),
-        "no_solid": translate("Tetra", "No solid"),
-        "scale_out_of_range": translate("Tetra", "Size out of range"),
-    }
-    return known.get(kind, kind.replace("_", " ").capitalize())

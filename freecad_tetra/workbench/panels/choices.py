@@ -10,7 +10,11 @@ import FreeCAD
 import FreeCADGui
 
 from freecad_tetra.workbench import compat, preferences
+from freecad_tetra.workbench.properties import CONVEX_CELLS
 from freecad_tetra.workbench.selection import TETRAHEDRA
+
+MOST_FLATNESS = 8
+MOST_PIECES = 10_000_000
 
 translate = FreeCAD.Qt.translate
 
@@ -29,16 +33,16 @@ class Choices:
         self._form = self._widgets.QFormLayout(self.widget)
         self._form.setContentsMargins(0, 0, 0, 0)
         self._read: dict[str, Any] = {}
-        start = {**preferences.properties(), **given}
+        start = {"Flatness": CONVEX_CELLS["Flatness"].value, **preferences.choices(), **given}
         if kind == TETRAHEDRA:
-            self._pick("Direction", translate("Tetra", "Direction"), directions(), start)
+            self._direction(str(start["Direction"]))
         else:
-            self._pick("Method", translate("Tetra", "Method"), cell_methods(), start)
+            self._method(str(start["Method"]))
         self._length("LinearDeflection", translate("Tetra", "Chord height"), start)
         self._angle("AngularDeflection", translate("Tetra", "Chord angle"), start)
         if kind != TETRAHEDRA:
-            self._count("Flatness", translate("Tetra", "Flatness"), 1000, start)
-        self._count("MaxPieces", translate("Tetra", "Solids up to"), 10_000_000, start)
+            self._count("Flatness", translate("Tetra", "Flatness"), MOST_FLATNESS, start)
+        self._count("MaxPieces", translate("Tetra", "Solids up to"), MOST_PIECES, start)
         self._tips()
 
     def values(self) -> dict[str, Any]:
@@ -57,14 +61,31 @@ class Choices:
         widget.setObjectName(name)
         self._form.addRow(title, widget)
 
-    def _pick(self, name: str, title: str, known: list[tuple[str, str]], start: Any) -> None:
+    def _pick(self, name: str, title: str, known: list[tuple[str, str]], value: str) -> Any:
         box = self._widgets.QComboBox()
         box.setSizeAdjustPolicy(self._widgets.QComboBox.AdjustToMinimumContentsLengthWithIcon)
-        for value, text in known:
-            box.addItem(text, value)
-        box.setCurrentIndex(max(0, box.findData(str(start[name]))))
+        for item, text in known:
+            box.addItem(text, item)
+        box.setCurrentIndex(box.findData(value))
         self._add(name, title, box)
-        self._read[name] = lambda: box.itemData(box.currentIndex())
+        return box
+
+    def _method(self, value: str) -> None:
+        box = self._pick("Method", translate("Tetra", "Method"), cell_methods(), value)
+        self._read["Method"] = lambda: box.itemData(box.currentIndex())
+
+    def _direction(self, value: str) -> None:
+        """Add a box for one of the axes, or for three whole numbers that are typed in."""
+        box = self._pick("Direction", translate("Tetra", "Direction"), directions(), value)
+        box.setEditable(True)
+        if box.currentIndex() < 0:
+            box.setEditText(value)
+
+        def read() -> str:
+            place = box.findText(box.currentText())
+            return str(box.itemData(place) if place >= 0 else box.currentText())
+
+        self._read["Direction"] = read
 
     def _quantity(self, name: str, title: str, unit: str, value: float) -> None:
         box = FreeCADGui.UiLoader().createWidget("Gui::QuantitySpinBox")
@@ -91,7 +112,9 @@ class Choices:
         known = {
             "Method": translate("Tetra", "How the solid is cut; automatic takes the fewer pieces"),
             "Direction": translate(
-                "Tetra", "Direction of the vertical walls; automatic takes the cheapest"
+                "Tetra",
+                "Direction of the walls: an axis, or three whole numbers such as 1,0,2; "
+                "automatic takes the cheapest",
             ),
             "LinearDeflection": translate(
                 "Tetra", "How far chords may be from round faces; 0 is automatic"

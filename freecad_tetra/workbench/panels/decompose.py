@@ -16,6 +16,7 @@ import FreeCADGui
 from freecad_tetra.errors import Cancelled, InvalidSolid, TetraError
 from freecad_tetra.workbench import compat, feature, messages, preferences
 from freecad_tetra.workbench.panels.choices import Choices
+from freecad_tetra.workbench.panels.defect_text import title
 from freecad_tetra.workbench.panels.facts_box import FactsBox, number
 from freecad_tetra.workbench.panels.stages import Stages
 from freecad_tetra.workbench.panels.work import Work
@@ -45,16 +46,18 @@ class Decompose:
         self.stages = Stages()
         self.work = Work(self._told, self._ended)
         self.form = self._layout()
+        self.facts.work.end_with(self.form)
+        self.work.end_with(self.form)
         self._say("")
         self.facts.count(source)
 
     def _layout(self) -> Any:
         _, _, widgets = compat.qt()
         form = widgets.QWidget()
-        title = translate("Tetra", "Tetrahedralize")
+        name = translate("Tetra", "Tetrahedralize")
         if self.kind != TETRAHEDRA:
-            title = translate("Tetra", "Convex cells")
-        form.setWindowTitle(title)
+            name = translate("Tetra", "Convex cells")
+        form.setWindowTitle(name)
         choices = widgets.QGroupBox(translate("Tetra", "Choices"))
         widgets.QVBoxLayout(choices).addWidget(self.choices.widget)
         self.compute_button = widgets.QPushButton(translate("Tetra", "Compute"))
@@ -85,8 +88,6 @@ class Decompose:
 
     def reject(self) -> bool:
         """FreeCAD calls this for Close and Esc; work that goes on is cancelled."""
-        self.facts.close()
-        self.work.drop()
         FreeCADGui.Control.closeDialog()
         return True
 
@@ -152,10 +153,12 @@ class Decompose:
         if isinstance(error, Cancelled):
             self._say(translate("Tetra", "Cancelled: the document is as it was"))
             return
-        text = messages.sentence(error.message) + " " + messages.sentence(error.next_step)
         if isinstance(error, InvalidSolid):
-            text += " " + translate("Tetra", "Check solid shows the faces at fault.")
-        self._say(text)
+            kinds = ", ".join(dict.fromkeys(title(defect.kind) for defect in error.defects))
+            text = translate("Tetra", "Not a valid solid: {0}. Check solid shows where.")
+            self._say(text.format(kinds))
+            return
+        self._say(f"{messages.sentence(error.message)} {messages.sentence(error.next_step)}")
 
     def _say(self, text: str) -> None:
         self.message.setText(text)

@@ -24,31 +24,29 @@ class FactsBox:
     widget : QGroupBox
     known : mapping
         What `facts.facts` tells, empty until it is there.
+    work : Work
+        The counting.
     """
 
     def __init__(self, kind: str, then: Callable[[Mapping[str, Any]], None]) -> None:
         _, _, widgets = compat.qt()
-        self.widget = widgets.QGroupBox(translate("Tetra", "Solid"))
+        self.widget = widgets.QGroupBox()
         self._form = widgets.QFormLayout(self.widget)
         self._label = widgets.QLabel
         self._rows: dict[str, Any] = {}
         self.known: Mapping[str, Any] = {}
         self._kind = kind
         self._then = then
-        self._work = Work(lambda state: None, self._end)
+        self.work = Work(lambda state: None, self._end)
 
     def count(self, source: Any) -> None:
         """Start to count the facts of an object."""
-        self._row("name", translate("Tetra", "Name"), source.Label)
+        self.widget.setTitle(source.Label)
         self._row("state", translate("Tetra", "State"), translate("Tetra", "counting..."))
         try:
-            self._work.follow(facts.start_facts(source))
+            self.work.follow(facts.start_facts(source))
         except TetraError as error:
             self._end(State(done=True, error=error))
-
-    def close(self) -> None:
-        """Stop counting."""
-        self._work.drop()
 
     def texts(self) -> dict[str, str]:
         """Return what is shown, by row."""
@@ -82,7 +80,6 @@ def rows(kind: str, known: Mapping[str, Any]) -> list[tuple[str, str, str]]:
         ("faces", translate("Tetra", "Faces"), number(known["faces"])),
         ("triangles", translate("Tetra", "Triangles"), number(known["triangles"])),
         ("notches", translate("Tetra", "Notches"), number(known["notches"])),
-        ("genus", translate("Tetra", "Handles"), number(known["genus"])),
         ("bound", translate("Tetra", "Pieces at most"), number(known["bound"])),
     ]
     expected = known["expected"].get(kind)

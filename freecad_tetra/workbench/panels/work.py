@@ -4,6 +4,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+from typing import Any
 
 from freecad_tetra.workbench import compat
 from freecad_tetra.workbench.runner import Job, State
@@ -23,9 +24,9 @@ class Work:
         self._timer.setInterval(INTERVAL)
         self._timer.timeout.connect(self._look)
 
-    def running(self) -> bool:
-        """Whether a job is at work."""
-        return self._job is not None
+    def end_with(self, form: Any) -> None:
+        """Stop the job when a widget is gone: FreeCAD may close a panel without asking it."""
+        form.destroyed.connect(lambda *gone: self.drop())
 
     def follow(self, job: Job) -> None:
         """Follow a job from now on; the one before is cancelled and forgotten."""

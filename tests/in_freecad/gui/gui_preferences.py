@@ -46,7 +46,7 @@ class Preferences(WindowTest):
     def test_defaults(self) -> None:
         self.assertEqual(preferences.max_pieces(), 10_000)
         self.assertTrue(preferences.hide_source())
-        self.assertEqual(preferences.properties()["Method"], "auto")
+        self.assertEqual(preferences.choices()["Method"], "auto")
         self.assertEqual(preferences.element_order(), 2)
 
     def test_page_stores_what_is_chosen(self) -> None:
@@ -63,7 +63,7 @@ class Preferences(WindowTest):
         in_dialog(act)
         self.assertEqual(preferences.max_pieces(), 123)
         self.assertFalse(preferences.hide_source())
-        chosen = preferences.properties()
+        chosen = preferences.choices()
         self.assertEqual(chosen["LinearDeflection"], 0.25)
         self.assertEqual((chosen["Method"], chosen["Direction"]), ("fences", "z"))
 

@@ -127,11 +127,10 @@ def children_at_work() -> list[int]:
     found = []
     for path in Path("/proc").glob("[0-9]*"):
         try:
-            parent = int((path / "stat").read_text().rsplit(")", 1)[1].split()[1])
-            state = (path / "stat").read_text().rsplit(")", 1)[1].split()[0]
-            if parent == os.getpid() and state != "Z":
-                if b"freecad_tetra" in (path / "cmdline").read_bytes():
-                    found.append(int(path.name))
+            state, parent = (path / "stat").read_text().rsplit(")", 1)[1].split()[:2]
+            ours = b"freecad_tetra" in (path / "cmdline").read_bytes()
+            if ours and int(parent) == os.getpid() and state != "Z":
+                found.append(int(path.name))
         except (OSError, ValueError, IndexError):
             continue
     return found
@@ -143,3 +142,19 @@ def widen_panel() -> None:
     docks = [d for d in window.findChildren(QtWidgets.QDockWidget) if d.isVisible()]
     left = [d for d in docks if window.dockWidgetArea(d) == QtCore.Qt.LeftDockWidgetArea]
     window.resizeDocks(left, [380] * len(left), QtCore.Qt.Horizontal)
+
+
+def dented_through() -> Any:
+    """Return a box of 10 whose pyramid-shaped dent of the top comes out below the bottom."""
+
+    def loop(*points: tuple[float, float, float]) -> Any:
+        return Part.makePolygon([FreeCAD.Vector(*p) for p in (*points, points[0])])
+
+    box = Part.makeBox(10, 10, 10)
+    rim = [(3, 3, 10), (7, 3, 10), (7, 7, 10), (3, 7, 10)]
+    top = max(box.Faces, key=lambda face: face.CenterOfMass.z).cut(Part.Face(loop(*rim)))
+    sides = [face for face in box.Faces if face.CenterOfMass.z < 9]
+    dent = [Part.Face(loop(rim[i - 1], rim[i], (5, 5, -2))) for i in range(4)]
+    sewn = Part.Compound([*sides, *top.Faces, *dent])
+    sewn.sewShape()
+    return Part.Solid(sewn.Shells[0])
