@@ -99,6 +99,13 @@ class Scene:
         )
         _fill(self._coordinates.point, moved)
 
+    def box(self) -> tuple[tuple[float, ...], tuple[float, ...]]:
+        """Return the least and the largest coordinates that are drawn; O(vertices)."""
+        action = coin.SoGetBoundingBoxAction(coin.SbViewportRegion())
+        action.apply(self.root)
+        found = action.getBoundingBox()
+        return tuple(found.getMin().getValue()), tuple(found.getMax().getValue())
+
     def set_lines(self, shown: bool, width: float, colour: tuple[float, float, float]) -> None:
         """Set how the edges of the pieces look."""
         self._line_switch.whichChild = coin.SO_SWITCH_ALL if shown else coin.SO_SWITCH_NONE

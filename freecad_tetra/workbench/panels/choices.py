@@ -22,12 +22,20 @@ translate = FreeCAD.Qt.translate
 class Choices:
     """A form for the properties of one kind of object.
 
+    Parameters
+    ----------
+    kind : {TETRAHEDRA, CONVEX_CELLS}
+    given : mapping
+        Properties to start with; the preferences give those left out.
+    limited : bool
+        Ask up to how many pieces become solids.
+
     Attributes
     ----------
     widget : QWidget
     """
 
-    def __init__(self, kind: str, given: Mapping[str, Any]) -> None:
+    def __init__(self, kind: str, given: Mapping[str, Any], limited: bool = True) -> None:
         _, _, self._widgets = compat.qt()
         self.widget = self._widgets.QWidget()
         self._form = self._widgets.QFormLayout(self.widget)
@@ -42,7 +50,8 @@ class Choices:
         self._angle("AngularDeflection", translate("Tetra", "Chord angle"), start)
         if kind != TETRAHEDRA:
             self._count("Flatness", translate("Tetra", "Flatness"), MOST_FLATNESS, start)
-        self._count("MaxPieces", translate("Tetra", "Solids up to"), MOST_PIECES, start)
+        if limited:
+            self._count("MaxPieces", translate("Tetra", "Solids up to"), MOST_PIECES, start)
         self._tips()
 
     def values(self) -> dict[str, Any]:

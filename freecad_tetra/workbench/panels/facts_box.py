@@ -3,7 +3,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
+from collections.abc import Mapping
 from typing import Any
 
 import FreeCAD
@@ -28,7 +28,7 @@ class FactsBox:
         The counting.
     """
 
-    def __init__(self, kind: str, then: Callable[[Mapping[str, Any]], None]) -> None:
+    def __init__(self, kind: str) -> None:
         _, _, widgets = compat.qt()
         self.widget = widgets.QGroupBox()
         self._form = widgets.QFormLayout(self.widget)
@@ -36,21 +36,22 @@ class FactsBox:
         self._rows: dict[str, Any] = {}
         self.known: Mapping[str, Any] = {}
         self._kind = kind
-        self._then = then
         self.work = Work(lambda state: None, self._end)
 
+    def show(self, result: Any) -> None:
+        """Show the figures of an object of this workbench, which are known."""
+        self.widget.setTitle(result.Label)
+        self._row("pieces", translate("Tetra", "Pieces"), number(result.Pieces))
+        self._row("notches", translate("Tetra", "Notches"), number(result.Notches))
+
     def count(self, source: Any) -> None:
-        """Start to count the facts of an object."""
+        """Start to count the facts of a solid."""
         self.widget.setTitle(source.Label)
         self._row("state", translate("Tetra", "State"), translate("Tetra", "counting..."))
         try:
             self.work.follow(facts.start_facts(source))
         except TetraError as error:
             self._end(State(done=True, error=error))
-
-    def texts(self) -> dict[str, str]:
-        """Return what is shown, by row."""
-        return {name: label.text() for name, label in self._rows.items()}
 
     def _end(self, state: State) -> None:
         if state.error is not None:
@@ -59,7 +60,6 @@ class FactsBox:
         self.known = state.result
         for name, title, text in rows(self._kind, self.known):
             self._row(name, title, text)
-        self._then(self.known)
 
     def _row(self, name: str, title: str, text: str) -> None:
         if name not in self._rows:

@@ -21,28 +21,30 @@ class Report:
     """Shows what `facts.report` tells; the document is not touched."""
 
     def __init__(self, result: Any) -> None:
-        self.rows = rows(facts.report(result))
-        self.form = self._layout(result)
+        self.report = facts.report(result)
+        self.rows = rows(self.report)
+        self.form = self._layout(result.Label)
 
-    def _layout(self, result: Any) -> Any:
+    def _layout(self, label: str) -> Any:
         _, _, widgets = compat.qt()
         form = widgets.QWidget()
         form.setWindowTitle(translate("Tetra", "Report"))
         column = widgets.QVBoxLayout(form)
-        column.addWidget(self._table(widgets, result.Label))
-        quality = facts.report(result).get("quality") or {}
-        for title, counts, bounds in histograms(quality):
+        column.addWidget(self._table(widgets, label))
+        for title, counts, bounds in histograms(self.report.get("quality") or {}):
             column.addWidget(widgets.QLabel(title))
             chart = widgets.QLabel()
             chart.setPixmap(histogram.picture(counts, bounds, form.palette()))
             column.addWidget(chart)
         copy = widgets.QPushButton(translate("Tetra", "Copy"))
+        copy.setObjectName("TetraCopy")
         copy.clicked.connect(self.copy)
         column.addWidget(copy)
         return form
 
     def _table(self, widgets: Any, label: str) -> Any:
         group = widgets.QGroupBox(label)
+        group.setObjectName("TetraFigures")
         form = widgets.QFormLayout(group)
         for title, text in self.rows:
             form.addRow(title, widgets.QLabel(text))
@@ -106,10 +108,8 @@ def histograms(quality: Mapping[str, Any]) -> list[tuple[str, list[int], list[fl
 
 
 def volume(value: float | None) -> str:
-    """Return a volume in the units that the user prefers."""
-    if value is None:
-        return ""
-    return FreeCAD.Units.Quantity(value, FreeCAD.Units.Volume).UserString
+    """Return a volume in mm³; FreeCAD's own choice of unit would be millilitres."""
+    return _float(value, "{:.7g} mm³")
 
 
 def verdict(value: str | None) -> str:
