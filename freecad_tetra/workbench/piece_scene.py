@@ -21,7 +21,7 @@ GOLDEN_RATIO = 0.6180339887498949
 
 def colours(count: int) -> list[tuple[float, float, float]]:
     """Return colours of `count` pieces; consecutive ones lie far apart on the circle of hues."""
-    tones = [(0.55, 0.92), (0.70, 0.80), (0.40, 0.98)]
+    tones = [(0.50, 1.0), (0.65, 0.88), (0.35, 0.97)]
     found = []
     for k in range(count):
         saturation, value = tones[k % len(tones)]

@@ -23,6 +23,7 @@ class Explode:
         self.result = result
         self.document = result.Document
         self.document.openTransaction(translate("Tetra", "Explode"))
+        FreeCADGui.Selection.clearSelection()  # its colour would hide those of the pieces
         self.form = self._layout()
 
     def _layout(self) -> Any:

@@ -12,6 +12,7 @@ from freecad_tetra.errors import TetraError
 from freecad_tetra.workbench import compat, facts, messages
 from freecad_tetra.workbench.panels.work import Work
 from freecad_tetra.workbench.runner import State
+from freecad_tetra.workbench.selection import CONVEX_CELLS
 
 translate = FreeCAD.Qt.translate
 
@@ -80,8 +81,9 @@ def rows(kind: str, known: Mapping[str, Any]) -> list[tuple[str, str, str]]:
         ("faces", translate("Tetra", "Faces"), number(known["faces"])),
         ("triangles", translate("Tetra", "Triangles"), number(known["triangles"])),
         ("notches", translate("Tetra", "Notches"), number(known["notches"])),
-        ("bound", translate("Tetra", "Pieces at most"), number(known["bound"])),
     ]
+    if kind == CONVEX_CELLS:
+        shown.append(("bound", translate("Tetra", "Pieces at most"), number(known["bound"])))
     expected = known["expected"].get(kind)
     if expected:
         shown.append(

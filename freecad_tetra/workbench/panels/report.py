@@ -21,6 +21,7 @@ class Report:
     """Shows what `facts.report` tells; the document is not touched."""
 
     def __init__(self, result: Any) -> None:
+        FreeCADGui.Selection.clearSelection()  # its colour would hide those of the pieces
         self.report = facts.report(result)
         self.rows = rows(self.report)
         self.form = self._layout(result.Label)
@@ -70,7 +71,7 @@ class Report:
 def rows(report: Mapping[str, Any]) -> list[tuple[str, str]]:
     """Return (title, text) of the figures to show; those that are not there are left out."""
     counts, quality = report.get("counts") or {}, report.get("quality") or {}
-    bound = (report.get("bounds") or {}).get("bajaj_dey")
+    bound = (report.get("bounds") or {}).get("bajaj_dey") if "pieces" in counts else None
     steiner = [
         v for k, v in counts.items() if k in ("steiner_edge", "steiner_facet", "steiner_inner")
     ]
