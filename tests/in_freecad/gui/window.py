@@ -40,12 +40,13 @@ def wait_for(condition: Callable[[], Any], what: str, seconds: float = 60.0) -> 
     return time.monotonic() - start
 
 
-def take_picture(name: str) -> Path:
-    """Save what the screen shows and return the file."""
+def take_picture(name: str, shown: Any = None) -> Path:
+    """Save what the screen shows, or where a widget is on it, and return the file."""
     pump(0.5)
     path = PICTURES / f"{name}.png"
+    area = () if shown is None else shown.frameGeometry().getRect()
     screen = QtWidgets.QApplication.primaryScreen()
-    if not screen.grabWindow(0).save(str(path)):
+    if not screen.grabWindow(0, *area).save(str(path)):
         raise AssertionError(f"cannot write {path}")
     return path
 
