@@ -12,6 +12,7 @@ import FreeCADGui
 from freecad_tetra.errors import Defect, InvalidSolid, TetraError
 from freecad_tetra.workbench import compat, facts, messages
 from freecad_tetra.workbench.panels.defect_text import line
+from freecad_tetra.workbench.panels.forms import close_only, new_form
 from freecad_tetra.workbench.panels.work import Work
 from freecad_tetra.workbench.runner import State
 
@@ -35,8 +36,7 @@ class Check:
 
     def _layout(self) -> Any:
         _, _, widgets = compat.qt()
-        form = widgets.QWidget()
-        form.setWindowTitle(translate("Tetra", "Check solid"))
+        form = new_form(translate("Tetra", "Check solid"), "Tetra_CheckSolid")
         self.verdict = widgets.QLabel()
         self.verdict.setWordWrap(True)
         self.verdict.setObjectName("TetraMessage")
@@ -56,8 +56,7 @@ class Check:
 
     def getStandardButtons(self) -> int:
         """FreeCAD asks which buttons to show above the panel."""
-        _, _, widgets = compat.qt()
-        return compat.button_code(widgets.QDialogButtonBox.Close)
+        return close_only()
 
     def reject(self) -> bool:
         """FreeCAD calls this for Close and Esc; the selected faces stay selected."""

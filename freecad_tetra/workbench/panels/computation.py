@@ -13,9 +13,10 @@ import FreeCAD
 import FreeCADGui
 
 from freecad_tetra.errors import Cancelled, InvalidSolid, TetraError
-from freecad_tetra.workbench import compat, messages, places
+from freecad_tetra.workbench import compat, messages
 from freecad_tetra.workbench.panels.defect_text import title
 from freecad_tetra.workbench.panels.facts_box import FactsBox
+from freecad_tetra.workbench.panels.forms import close_only, new_form
 from freecad_tetra.workbench.panels.stages import Stages
 from freecad_tetra.workbench.panels.work import Work
 from freecad_tetra.workbench.runner import Job, State
@@ -41,13 +42,13 @@ class Computation:
 
     def __init__(self, name: str, icon: str, kind: str, source: Any, choices: Any) -> None:
         self.name = name
+        self.icon = icon
         self.source = source
         self.choices = choices
         self.facts = FactsBox(kind)
         self.stages = Stages()
         self.work = Work(self._told, self._ended)
         self.form = self._layout()
-        self.form.setWindowIcon(compat.qt()[1].QIcon(places.icon(icon)))
         self.facts.work.end_with(self.form)
         self.work.end_with(self.form)
 
@@ -61,8 +62,7 @@ class Computation:
 
     def _layout(self) -> Any:
         _, _, widgets = compat.qt()
-        form = widgets.QWidget()
-        form.setWindowTitle(self.name)
+        form = new_form(self.name, self.icon)
         choices = widgets.QGroupBox(translate("Tetra", "Choices"))
         widgets.QVBoxLayout(choices).addWidget(self.choices.widget)
         self.compute_button = self._button("TetraCompute", translate("Tetra", "Compute"))
@@ -80,7 +80,7 @@ class Computation:
         for part in (self.facts.widget, choices):
             column.addWidget(part)
         column.addLayout(buttons)
-        for part in (self.stages.widget, self.message):
+        for part in (self.message, self.stages.widget):
             column.addWidget(part)
         return form
 
@@ -92,8 +92,7 @@ class Computation:
 
     def getStandardButtons(self) -> int:
         """FreeCAD asks which buttons to show above the panel."""
-        _, _, widgets = compat.qt()
-        return compat.button_code(widgets.QDialogButtonBox.Close)
+        return close_only()
 
     def reject(self) -> bool:
         """FreeCAD calls this for Close and Esc; work that goes on ends with the form."""

@@ -9,6 +9,7 @@ import FreeCAD
 import FreeCADGui
 
 from freecad_tetra.workbench import compat
+from freecad_tetra.workbench.panels.forms import new_form
 
 translate = FreeCAD.Qt.translate
 
@@ -28,8 +29,7 @@ class Explode:
 
     def _layout(self) -> Any:
         core, _, widgets = compat.qt()
-        form = widgets.QWidget()
-        form.setWindowTitle(translate("Tetra", "Explode"))
+        form = new_form(translate("Tetra", "Explode"), "Tetra_Explode")
         self.slider = widgets.QSlider(core.Qt.Horizontal)
         self.slider.setRange(0, STEPS)
         self.slider.setObjectName("TetraFactor")

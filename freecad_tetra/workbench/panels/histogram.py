@@ -14,8 +14,8 @@ BAR = "#4d9aa3"
 
 
 def labels(bounds: Sequence[float]) -> list[str]:
-    """Return what stands below the edges between the bars, short."""
-    return [f"{bound:g}" for bound in bounds]
+    """Return what stands below the edges between the bars, short: 1e-4 for 0.0001."""
+    return [f"{b:.0e}".replace("e-0", "e-") if 0 < b < 1e-2 else f"{b:g}" for b in bounds]
 
 
 def picture(counts: Sequence[int], bounds: Sequence[float], palette: Any) -> Any:

@@ -13,6 +13,7 @@ import FreeCADGui
 from freecad_tetra.workbench import compat, facts
 from freecad_tetra.workbench.panels import histogram
 from freecad_tetra.workbench.panels.facts_box import number
+from freecad_tetra.workbench.panels.forms import close_only, new_form
 
 translate = FreeCAD.Qt.translate
 
@@ -28,8 +29,7 @@ class Report:
 
     def _layout(self, label: str) -> Any:
         _, _, widgets = compat.qt()
-        form = widgets.QWidget()
-        form.setWindowTitle(translate("Tetra", "Report"))
+        form = new_form(translate("Tetra", "Report"), "Tetra_Report")
         column = widgets.QVBoxLayout(form)
         column.addWidget(self._table(widgets, label))
         for title, counts, bounds in histograms(self.report.get("quality") or {}):
@@ -53,8 +53,7 @@ class Report:
 
     def getStandardButtons(self) -> int:
         """FreeCAD asks which buttons to show above the panel."""
-        _, _, widgets = compat.qt()
-        return compat.button_code(widgets.QDialogButtonBox.Close)
+        return close_only()
 
     def reject(self) -> bool:
         """FreeCAD calls this for Close and Esc."""

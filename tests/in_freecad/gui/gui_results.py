@@ -4,6 +4,7 @@
 from __future__ import annotations
 
 import tempfile
+from itertools import pairwise
 from pathlib import Path
 from typing import Any
 
@@ -97,7 +98,7 @@ class Results(WindowTest):
 
         found = piece_scene.colours(1000)
         self.assertEqual(len(set(found)), 1000)
-        for one, two in zip(found, found[1:]):
+        for one, two in pairwise(found):
             self.assertGreater(sum(abs(a - b) for a, b in zip(one, two)), 0.15)
 
     def test_other_display_modes_pick_faces(self) -> None:
