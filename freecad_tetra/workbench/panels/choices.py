@@ -3,7 +3,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from typing import Any
 
 import FreeCAD
@@ -57,6 +57,12 @@ class Choices:
     def values(self) -> dict[str, Any]:
         """Return the properties as they are chosen now."""
         return {name: read() for name, read in self._read.items()}
+
+    def on_change(self, tell: Callable[[], None]) -> None:
+        """Call `tell` whenever the user has changed how the solid is tessellated."""
+        for name in ("LinearDeflection", "AngularDeflection"):
+            line = self.field(name).findChild(self._widgets.QLineEdit)
+            line.textChanged.connect(lambda text: tell())
 
     def enable(self, on: bool) -> None:
         """Let the user change the choices, or not while the work goes on."""

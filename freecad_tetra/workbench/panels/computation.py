@@ -23,6 +23,8 @@ from freecad_tetra.workbench.runner import Job, State
 
 translate = FreeCAD.Qt.translate
 
+PAUSE = 500  # milliseconds
+
 
 class Computation:
     """What the panels of Tetrahedralize, Convex cells and To FEM mesh have in common.
@@ -37,7 +39,7 @@ class Computation:
         Whose facts are told.
     source : document object
         The solid, or another object that needs no facts.
-    choices : object with `widget`, `values` and `enable`
+    choices : object with `widget`, `values`, `enable` and `on_change`
     """
 
     def __init__(self, name: str, icon: str, kind: str, source: Any, choices: Any) -> None:
@@ -50,7 +52,25 @@ class Computation:
         self.work = Work(self._told, self._ended)
         self.form = self._layout()
         self.facts.work.end_with(self.form)
+        self._pause = self._new_pause()
         self.work.end_with(self.form)
+
+    def count_facts(self) -> None:
+        """Count the facts of the solid now, and again whenever choices change."""
+        self.choices.on_change(self._pause.start)
+        self._recount()
+
+    def _recount(self) -> None:
+        self.facts.count(self.source, self.choices.values())
+
+    def _new_pause(self) -> Any:
+        """Return the timer that lets the user finish typing before the facts are counted."""
+        core, _, _ = compat.qt()
+        pause = core.QTimer(self.form)
+        pause.setSingleShot(True)
+        pause.setInterval(PAUSE)
+        pause.timeout.connect(self._recount)
+        return pause
 
     def begin(self) -> Job | None:
         """Start the work and return its job, or None when there is nothing to wait for."""

@@ -36,7 +36,7 @@ class Decompose(Computation):
         if kind != TETRAHEDRA:
             name, icon = translate("Tetra", "Convex cells"), "Tetra_ConvexCells"
         super().__init__(name, icon, kind, source, Choices(kind, _stored(result)))
-        self.facts.count(source)
+        self.count_facts()
 
     def begin(self) -> Job | None:
         """Start the decomposition."""

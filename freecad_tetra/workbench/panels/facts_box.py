@@ -45,12 +45,14 @@ class FactsBox:
         self._row("pieces", translate("Tetra", "Pieces"), number(result.Pieces))
         self._row("notches", translate("Tetra", "Notches"), number(result.Notches))
 
-    def count(self, source: Any) -> None:
-        """Start to count the facts of a solid."""
+    def count(self, source: Any, given: Mapping[str, Any]) -> None:
+        """Start to count the facts of a solid, tessellated as the given choices say."""
+        if not compat.alive(source):
+            return
         self.widget.setTitle(source.Label)
         self._row("state", translate("Tetra", "State"), translate("Tetra", "counting..."))
         try:
-            self.work.follow(facts.start_facts(source))
+            self.work.follow(facts.start_facts(source, given))
         except TetraError as error:
             self._end(State(done=True, error=error))
 

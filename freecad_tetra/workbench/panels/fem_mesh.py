@@ -3,6 +3,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from typing import Any
 
 import FreeCAD
@@ -26,7 +27,7 @@ class ToFemMesh(Computation):
         name = translate("Tetra", "To FEM mesh")
         super().__init__(name, "Tetra_ToFemMesh", TETRAHEDRA, source, choices)
         if self.of_solid:
-            self.facts.count(source)
+            self.count_facts()
         else:
             self.facts.show(source)
 
@@ -34,11 +35,11 @@ class ToFemMesh(Computation):
         """Start to tetrahedralize a solid; tetrahedra are there already."""
         if not self.of_solid:
             return None
-        return feature.start(TETRAHEDRA, self.source, self.choices.properties())
+        return feature.start(TETRAHEDRA, self.source, self.choices.values())
 
     def fill(self, document: Any, result: Any) -> str:
         """Make the mesh and return its figures."""
-        chosen, order = self.choices.properties(), self.choices.order()
+        chosen, order = self.choices.values(), self.choices.order()
         analysis = active_analysis(document)
         made = feature.make_fem_mesh(document, self.source, analysis, order, **chosen)
         if result is not None:
@@ -80,9 +81,14 @@ class FemChoices:
         """Return 1 or 2."""
         return 2 if self._second.isChecked() else 1
 
-    def properties(self) -> dict[str, Any]:
+    def values(self) -> dict[str, Any]:
         """Return the properties of the decomposition, {} for tetrahedra that are there."""
         return {} if self._inner is None else self._inner.values()
+
+    def on_change(self, tell: Callable[[], None]) -> None:
+        """Call `tell` whenever the user has changed how the solid is tessellated."""
+        if self._inner is not None:
+            self._inner.on_change(tell)
 
     def enable(self, on: bool) -> None:
         """Let the user change the choices, or not while the work goes on."""

@@ -3,6 +3,8 @@
 
 from __future__ import annotations
 
+from unittest import mock
+
 import FreeCAD
 import FreeCADGui
 import Part
@@ -18,6 +20,8 @@ from window import (
     take_picture,
     tip,
 )
+
+from freecad_tetra.workbench import kernel_path
 
 COMMANDS = [
     "Tetra_Tetrahedralize",
@@ -135,3 +139,13 @@ class Commands(WindowTest):
         select(one, two)
         self.assertEqual(self.active(), [])
         self.assertIn("one object only", tip("Tetra_ConvexCells"))
+
+    def test_missing_kernel_says_what_to_run(self) -> None:
+        advice = "The compiled kernel is missing. Run `make install-freecad`."
+        select(self.add(Part.makeBox(1, 1, 1)))
+        with mock.patch.object(kernel_path, "problem", return_value=advice):
+            self.assertEqual(self.active(), [])
+            self.assertEqual({tip(name) for name in ON_SOLIDS}, {advice})
+            FreeCADGui.runCommand("Tetra_ConvexCells")
+            self.assertFalse(FreeCADGui.Control.activeDialog())
+        self.assertEqual(self.active(), ON_SOLIDS)

@@ -8,6 +8,7 @@ import signal
 import time
 from typing import Any
 
+import FreeCAD
 import FreeCADGui
 import Part
 from window import (
@@ -112,6 +113,21 @@ class Panel(WindowTest):
         take_picture("facts")
         self.untouched(before)
 
+    def test_facts_follow_the_choices(self) -> None:
+        open_panel("Tetra_Tetrahedralize", self.add(Part.makeSphere(5)))
+        form = widget("TetraCompute").parentWidget()
+
+        def triangles() -> int:
+            shown = [w.text() for w in form.findChildren(QtWidgets.QLabel)]
+            if "valid" not in shown:
+                return 0
+            return int(shown[shown.index("Triangles") + 1].replace("\u2009", ""))
+
+        wait_for(triangles, "the facts")
+        before = triangles()
+        widget("AngularDeflection").setProperty("rawValue", 6.0)
+        wait_for(lambda: triangles() > 2 * before, "the facts of a finer surface")
+
     def test_one_step_to_undo_and_to_redo(self) -> None:
         made = self.make("Tetra_ConvexCells", Part.makeBox(3, 3, 3).cut(Part.makeBox(1, 1, 1)))
         name, count, source = made.Name, made.Pieces, made.Source
@@ -195,6 +211,24 @@ class Panel(WindowTest):
         widget("TetraCancel").click()
         pump(0.2)
         self.assertEqual(self.names(), [])
+
+    def test_document_closed_while_the_work_goes_on(self) -> None:
+        self.long_work()
+        FreeCAD.closeDocument(self.doc.Name)
+        pump(0.5)
+        if FreeCADGui.Control.activeDialog():
+            widget("TetraCancel").click()
+            pump(0.2)
+        self.assertEqual(children_at_work(), [])
+
+    def test_undone_object_is_made_anew(self) -> None:
+        made = self.make("Tetra_ConvexCells", Part.makeBox(2, 2, 2))
+        source = made.Source
+        self.doc.undo()
+        self.assertEqual(self.names(), [source.Name])
+        compute()
+        self.assertEqual(len(self.doc.Objects), 2, message())
+        self.assertEqual(self.doc.Objects[1].Pieces, 1)
 
     def test_computing_again_changes_the_same_object(self) -> None:
         made = self.make("Tetra_ConvexCells", Part.makeCylinder(5, 5))
