@@ -116,6 +116,10 @@ class Scene:
         """Set the transparency, 0 (opaque) to 1."""
         self._material.transparency.setValue(share)
 
+    def transparency(self) -> float:
+        """Return the transparency, 0 (opaque) to 1."""
+        return float(self._material.transparency[0])
+
     def _part_field(self) -> Any:
         return self._faces.getField("partIndex")
 

@@ -226,6 +226,22 @@ class Results(WindowTest):
         self.assertGreater(len(self.picked(24)), 10)
         self.assertEqual([o.Name for o in again.ViewObject.claimChildren()], [again.Source.Name])
 
+    def test_copy_shows_its_own_pieces(self) -> None:
+        made = self.bracket(feature.make_convex_cells)
+        copy = self.doc.copyObject(made, False)
+        copy.Explode = 1.0
+        pump(0.3)
+        self.assertEqual(type(copy.ViewObject.Proxy), type(made.ViewObject.Proxy))
+        self.assertGreater(self.extent(copy), 1.3 * self.extent(made))
+
+    def test_look_can_be_changed(self) -> None:
+        made = self.corner()
+        made.ViewObject.Transparency = 60
+        made.ViewObject.LineWidth = 3.0
+        made.ViewObject.LineColor = (1.0, 0.0, 0.0)
+        take_picture("transparent")
+        self.assertAlmostEqual(made.ViewObject.Proxy.scene.transparency(), 0.6, places=5)
+
     def test_deleting_the_pieces_shows_the_solid(self) -> None:
         made = self.corner()
         source = made.Source
