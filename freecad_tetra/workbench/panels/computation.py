@@ -185,3 +185,16 @@ class Computation:
         self.compute_button.setEnabled(not on)
         self.cancel_button.setEnabled(on)
         self.choices.enable(not on)
+
+
+def recompute(obj: Any) -> None:
+    """Recompute one object.
+
+    Raises
+    ------
+    TetraError
+        FreeCAD has marked the object as faulty.
+    """
+    obj.Document.recompute([obj])
+    if "Invalid" in obj.State:
+        raise TetraError(obj.getStatusString(), "nothing was made; please report the part")

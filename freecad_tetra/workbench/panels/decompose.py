@@ -10,7 +10,7 @@ import FreeCAD
 
 from freecad_tetra.workbench import compat, feature, preferences
 from freecad_tetra.workbench.panels.choices import Choices
-from freecad_tetra.workbench.panels.computation import Computation
+from freecad_tetra.workbench.panels.computation import Computation, recompute
 from freecad_tetra.workbench.panels.facts_box import number
 from freecad_tetra.workbench.runner import Job
 from freecad_tetra.workbench.selection import TETRAHEDRA
@@ -54,7 +54,7 @@ class Decompose(Computation):
             for name, value in chosen.items():
                 setattr(self.result, name, value)
         feature.accept(self.result, result)
-        document.recompute([self.result])
+        recompute(self.result)
         if preferences.hide_source():
             self.source.ViewObject.Visibility = False
         said = translate("Tetra", "{0} pieces, volume error {1:.0e}, {2:.2f} s")

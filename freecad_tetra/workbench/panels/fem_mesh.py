@@ -10,7 +10,7 @@ import FreeCAD
 
 from freecad_tetra.workbench import compat, feature, fem_feature, preferences, selection
 from freecad_tetra.workbench.panels.choices import Choices
-from freecad_tetra.workbench.panels.computation import Computation
+from freecad_tetra.workbench.panels.computation import Computation, recompute
 from freecad_tetra.workbench.panels.facts_box import number
 from freecad_tetra.workbench.runner import Job
 from freecad_tetra.workbench.selection import TETRAHEDRA
@@ -44,7 +44,7 @@ class ToFemMesh(Computation):
         made = feature.make_fem_mesh(document, self.source, analysis, order, **chosen)
         if result is not None:
             fem_feature.accept(made, result)
-        document.recompute([made])
+        recompute(made)
         if preferences.hide_source():
             self.source.ViewObject.Visibility = False
         said = translate("Tetra", "{0} nodes, {1} tetrahedra, {2} triangles of the skin")

@@ -12,6 +12,7 @@ def new_form(title: str, icon: str) -> Any:
     """Return a QWidget that FreeCAD shows with a title and the icon of a command."""
     _, gui, widgets = compat.qt()
     form = widgets.QWidget()
+    form.setObjectName("TetraPanel")
     form.setWindowTitle(title)
     form.setWindowIcon(gui.QIcon(places.icon(icon)))
     return form

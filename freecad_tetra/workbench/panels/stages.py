@@ -70,13 +70,10 @@ class Stages:
         for bar in self._bars.values():
             bar.setValue(100)
 
-    def names(self) -> list[str]:
-        """Return the stages shown, in their order."""
-        return list(self._bars)
-
     def _add(self, stage: str) -> Any:
         bar = self._widgets.QProgressBar()
         bar.setRange(0, 100)
+        bar.setObjectName(stage)
         self._rows.addRow(title(stage), bar)
         self._bars[stage] = bar
         return bar

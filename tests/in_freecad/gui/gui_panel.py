@@ -7,6 +7,7 @@ import os
 import signal
 import time
 from typing import Any
+from unittest import mock
 
 import FreeCAD
 import FreeCADGui
@@ -18,6 +19,7 @@ from window import (
     dented_through,
     pump,
     read,
+    report_view,
     select,
     status,
     take_picture,
@@ -26,7 +28,8 @@ from window import (
     widget,
 )
 
-from freecad_tetra.workbench import feature
+from freecad_tetra.errors import TetraError
+from freecad_tetra.workbench import feature, write_back
 
 
 def message() -> str:
@@ -53,14 +56,13 @@ class Panel(WindowTest):
         open_panel("Tetra_ConvexCells", torus)
         widget("AngularDeflection").setProperty("rawValue", 9.0)
         widget("TetraCompute").click()
-        wait_for(lambda: self.stages()[-1:] == ["Cut notches"], "the cutting of notches", 120)
+        wait_for(lambda: self.stages()[-1:] == ["cutting notches"], "the cutting of notches", 120)
         pump(0.5)
         return torus
 
     def stages(self) -> list[str]:
-        form = widget("TetraCompute").parentWidget()
-        bars = form.findChildren(QtWidgets.QProgressBar)
-        return [bar.parentWidget().layout().labelForField(bar).text() for bar in bars]
+        bars = widget("TetraPanel").findChildren(QtWidgets.QProgressBar)
+        return [bar.objectName() for bar in bars]
 
     def untouched(self, before: tuple[Any, ...]) -> None:
         self.assertEqual((self.doc.UndoCount, self.names(), self.doc.RedoCount), before)
@@ -102,7 +104,7 @@ class Panel(WindowTest):
         part = self.add(read("resources/parts/bracket.step"))
         before = self.state()
         open_panel("Tetra_Tetrahedralize", part)
-        form = widget("TetraCompute").parentWidget()
+        form = widget("TetraPanel")
         labels = lambda: [w.text() for w in form.findChildren(QtWidgets.QLabel)]  # noqa: E731
         wait_for(lambda: "valid" in labels(), "the facts")
         shown = labels()
@@ -115,7 +117,7 @@ class Panel(WindowTest):
 
     def test_facts_follow_the_choices(self) -> None:
         open_panel("Tetra_Tetrahedralize", self.add(Part.makeSphere(5)))
-        form = widget("TetraCompute").parentWidget()
+        form = widget("TetraPanel")
 
         def triangles() -> int:
             shown = [w.text() for w in form.findChildren(QtWidgets.QLabel)]
@@ -220,6 +222,17 @@ class Panel(WindowTest):
             widget("TetraCancel").click()
             pump(0.2)
         self.assertEqual(children_at_work(), [])
+
+    def test_shape_that_cannot_be_made_leaves_the_document_whole(self) -> None:
+        part = self.add(Part.makeBox(2, 2, 2))
+        before = self.state()
+        open_panel("Tetra_ConvexCells", part)
+        error = TetraError("there is no room", "try less")
+        with mock.patch.object(write_back, "shape_of_pieces", side_effect=error):
+            compute()
+        self.assertIn("there is no room", message().lower())
+        self.untouched(before)
+        self.told = len(report_view())  # FreeCAD itself reports a failed recompute in its way
 
     def test_undone_object_is_made_anew(self) -> None:
         made = self.make("Tetra_ConvexCells", Part.makeBox(2, 2, 2))

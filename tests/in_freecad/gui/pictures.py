@@ -52,7 +52,7 @@ class Pictures(WindowTest):
             wait_for(lambda: "counting" not in self.labels(), "the facts")
 
     def labels(self) -> str:
-        form = widget("TetraMessage").parentWidget()
+        form = widget("TetraPanel")
         return " ".join(label.text() for label in form.findChildren(QtWidgets.QLabel))
 
     def compute(self) -> None:
