@@ -39,6 +39,12 @@ def qt() -> tuple[Any, Any, Any]:
     return QtCore, QtGui, QtWidgets
 
 
+def ask(box: Any) -> int:
+    """Show a modal box and return the button pressed: `exec` is `exec_` in Qt 5."""
+    run = getattr(box, "exec", None) or box.exec_
+    return int(run())
+
+
 def button_code(button: Any) -> int:
     """Return a standard button as the int that task panels give: Qt 6 has enums for them."""
     return int(getattr(button, "value", button))

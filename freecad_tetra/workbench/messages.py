@@ -47,7 +47,7 @@ def show_error(error: TetraError) -> None:
     box.setWindowTitle(translate("Tetra", "Tetra"))
     box.setText(sentence(error.message))
     box.setInformativeText(sentence(error.next_step))
-    box.exec_()
+    compat.ask(box)
 
 
 def sentence(text: str) -> str:

@@ -7,11 +7,13 @@ import tempfile
 from itertools import pairwise
 from pathlib import Path
 from typing import Any
+from unittest import mock
 
 import FreeCAD
 import FreeCADGui
 import Part
 from window import (
+    QtCore,
     QtWidgets,
     WindowTest,
     pump,
@@ -24,7 +26,8 @@ from window import (
     widget,
 )
 
-from freecad_tetra.workbench import feature
+from freecad_tetra.errors import TetraError
+from freecad_tetra.workbench import facts, feature
 
 
 def press(button: Any) -> None:
@@ -164,6 +167,22 @@ class Results(WindowTest):
         select(made)
         for name in ("Tetra_Explode", "Tetra_Report"):
             self.assertTrue(FreeCADGui.Command.get(name).isActive(), tip(name))
+
+    def test_error_is_shown_in_a_box(self) -> None:
+        made = self.corner()
+        told: list[str] = []
+
+        def look() -> None:
+            box = QtWidgets.QApplication.activeModalWidget()
+            told.extend([box.text(), box.informativeText()])
+            box.accept()
+
+        QtCore.QTimer.singleShot(800, look)
+        error = TetraError("the document is damaged", "open an older copy")
+        with mock.patch.object(facts, "report", side_effect=error):
+            open_panel("Tetra_Report", made)
+        self.assertEqual(told, ["The document is damaged.", "Open an older copy."])
+        self.assertFalse(FreeCADGui.Control.activeDialog())
 
     def fem(self, source: Any) -> Any:
         steps = self.doc.UndoCount
