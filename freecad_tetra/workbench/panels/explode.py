@@ -22,8 +22,8 @@ class Explode:
 
     def __init__(self, result: Any) -> None:
         self.result = result
-        self.document = result.Document
-        self.document.openTransaction(translate("Tetra", "Explode"))
+        self.document = result.Document.Name
+        result.Document.openTransaction(translate("Tetra", "Explode"))
         FreeCADGui.Selection.clearSelection()  # its colour would hide those of the pieces
         self.form = self._layout()
 
@@ -48,15 +48,21 @@ class Explode:
 
     def accept(self) -> bool:
         """FreeCAD calls this for OK."""
-        self.document.commitTransaction()
+        self._end("commitTransaction")
         FreeCADGui.Control.closeDialog()
         return True
 
     def reject(self) -> bool:
         """FreeCAD calls this for Cancel and Esc."""
-        self.document.abortTransaction()
+        self._end("abortTransaction")
         FreeCADGui.Control.closeDialog()
         return True
+
+    def _end(self, how: str) -> None:
+        """End the transaction, if the document is still open."""
+        document = FreeCAD.listDocuments().get(self.document)
+        if document is not None:
+            getattr(document, how)()
 
     def _draw(self, factor: float) -> None:
         self.slider.blockSignals(True)

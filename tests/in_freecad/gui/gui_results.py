@@ -139,6 +139,15 @@ class Results(WindowTest):
         self.assertEqual((made.Explode, self.doc.UndoCount), (0.0, steps))
         self.assertAlmostEqual(self.extent(made), before)
 
+    def test_document_closed_while_pieces_are_drawn_apart(self) -> None:
+        open_panel("Tetra_Explode", self.corner())
+        FreeCAD.closeDocument(self.doc.Name)
+        pump(0.3)
+        if FreeCADGui.Control.activeDialog():
+            widget("TetraFactor").setValue(50)
+            press(QtWidgets.QDialogButtonBox.Cancel)
+        self.assertFalse(FreeCADGui.Control.activeDialog())
+
     def extent(self, made: Any) -> float:
         """Return the length of the diagonal of what the 3D view shows of an object."""
         scene = made.ViewObject.Proxy.scene
