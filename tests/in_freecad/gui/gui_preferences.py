@@ -14,17 +14,23 @@ from freecad_tetra.workbench import preferences
 def in_dialog(act: Any) -> None:
     """Open the page in FreeCAD's modal dialog, act on it, and press OK."""
     failures: list[BaseException] = []
+    timer = QtCore.QTimer()
 
     def inside() -> None:
         dialog = QtWidgets.QApplication.activeModalWidget()
+        if dialog is None:
+            return
+        timer.stop()
         try:
             act(dialog)
         except BaseException as error:  # told below, outside Qt's slot
             failures.append(error)
         dialog.accept()
 
-    QtCore.QTimer.singleShot(800, inside)
+    timer.timeout.connect(inside)
+    timer.start(500)
     FreeCADGui.showPreferences("Tetra", 0)
+    timer.stop()
     if failures:
         raise failures[0]
 
