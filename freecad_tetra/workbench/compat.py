@@ -51,9 +51,12 @@ def button_code(button: Any) -> int:
 
 
 def alive(obj: Any) -> bool:
-    """Whether a document object is still in its document; False for None."""
+    """Whether a document object is still in its document; False for None.
+
+    An object whose creation was undone raises, or from 1.0 on has None for a name.
+    """
     try:
-        return obj is not None and obj.Document.getObject(obj.Name) is not None
+        return obj is not None and bool(obj.Name) and obj.Document.getObject(obj.Name) == obj
     except (AttributeError, ReferenceError, RuntimeError):
         return False
 
