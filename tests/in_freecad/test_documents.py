@@ -14,7 +14,15 @@ import FreeCAD
 import numpy as np
 from parts import InDocument, drilled_block, placement
 
-from freecad_tetra.workbench import child_python, feature, fem_feature, properties, runner, source
+from freecad_tetra.workbench import (
+    child_python,
+    feature,
+    fem_feature,
+    preferences,
+    properties,
+    runner,
+    source,
+)
 
 OLD = Path(__file__).resolve().parent / "documents"
 _OTHER_RUN = """
@@ -145,7 +153,7 @@ class Older(InDocument):
                 self.assertEqual(obj.getTypeIdOfProperty(prop), wanted.kind, prop)
             self.assertEqual((obj.LinearDeflection.Value, obj.Source.Name), (0.25, "Box"))
             self.assertEqual((obj.AngularDeflection.Value, obj.Explode), (0.0, 0.0))
-            self.assertEqual(obj.MaxPieces, properties.default_limit())
+            self.assertEqual(obj.MaxPieces, preferences.max_pieces())
         self.assertEqual(doc.getObject("Cells").Method, "bajaj-dey")
         self.assertEqual(doc.getObject("Tetrahedra").Direction, "z")
         for obj in doc.Objects:

@@ -190,7 +190,7 @@ class Panel(WindowTest):
             QtWidgets.QApplication.processEvents()
             now = time.monotonic()
             longest, last = max(longest, now - last), now
-        self.assertLess(longest, 0.3)
+        self.assertLess(longest, 1.0)  # blocked, it would be half a minute
         self.assertEqual(len(children_at_work()), 1)
 
     def test_killed_child_leaves_freecad_and_the_document_whole(self) -> None:
