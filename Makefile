@@ -14,8 +14,8 @@ KERNEL_FILES := CMakeLists.txt $(shell find kernel -type f)
 PACKAGE_FILES := pyproject.toml freecad_tetra/_version.py
 CXX_FILES := $(shell find kernel benchmarks -name '*.cpp' -o -name '*.h')
 
-.PHONY: all demo test lint format tidy test-kernel test-python test-freecad install-freecad \
-    benchmark clean
+.PHONY: all demo test lint format tidy test-kernel test-python test-freecad test-freecad-gui \
+    install-freecad pictures translations benchmark clean
 
 all: $(STAMPS)/install
 
@@ -41,7 +41,7 @@ $(STAMPS)/install: $(STAMPS)/venv $(KERNEL_FILES) $(PACKAGE_FILES)
 demo: $(STAMPS)/install
 	tools/demo.sh
 
-test: lint test-kernel test-python test-freecad
+test: lint test-kernel test-python test-freecad test-freecad-gui
 
 lint: $(STAMPS)/install
 	tools/lint.sh
@@ -77,6 +77,22 @@ test-freecad:
 	tools/install_debian.sh freecad g++ cmake ninja-build python3-dev python3-venv
 	QT_QPA_PLATFORM=offscreen tools/install_freecad.sh --kernel-only
 	tests/in_freecad/run_headless
+
+# In FreeCAD's window, on a display of its own.
+test-freecad-gui: export MAKE := $(MAKE)
+test-freecad-gui: export JOBS := $(JOBS)
+test-freecad-gui:
+	tools/install_debian.sh freecad xvfb xauth g++ cmake ninja-build python3-dev python3-venv
+	QT_QPA_PLATFORM=offscreen tools/install_freecad.sh --kernel-only
+	tests/in_freecad/run_gui
+
+# The pictures of docs/freecad.md.
+pictures:
+	TETRA_SCREENSHOTS=$(CURDIR)/docs/pictures tests/in_freecad/run_gui pictures
+
+# After a change of texts that FreeCAD's window shows.
+translations:
+	tools/translate.sh
 
 # Beside CGAL and TetGen, which are installed for this target only, and over growing solids.
 benchmark: $(STAMPS)/install

@@ -39,6 +39,28 @@ def qt() -> tuple[Any, Any, Any]:
     return QtCore, QtGui, QtWidgets
 
 
+def ask(box: Any) -> int:
+    """Show a modal box and return the button pressed: `exec` is `exec_` in Qt 5."""
+    run = getattr(box, "exec", None) or box.exec_
+    return int(run())
+
+
+def button_code(button: Any) -> int:
+    """Return a standard button as the int that task panels give: Qt 6 has enums for them."""
+    return int(getattr(button, "value", button))
+
+
+def alive(obj: Any) -> bool:
+    """Whether a document object is still in its document; False for None.
+
+    An object whose creation was undone raises, or from 1.0 on has None for a name.
+    """
+    try:
+        return obj is not None and bool(obj.Name) and obj.Document.getObject(obj.Name) == obj
+    except (AttributeError, ReferenceError, RuntimeError):
+        return False
+
+
 class Stateless:
     """A proxy whose document stores its class and nothing else; all data are properties.
 

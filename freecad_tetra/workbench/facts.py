@@ -3,11 +3,12 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from typing import Any
 
 from freecad_tetra.errors import Defect, InvalidSolid
 from freecad_tetra.kernel import Validation, piece_bound
-from freecad_tetra.workbench import runner, source, store
+from freecad_tetra.workbench import properties, runner, source, store
 
 
 def facts(shape: Any) -> dict[str, Any]:
@@ -34,9 +35,16 @@ def facts(shape: Any) -> dict[str, Any]:
     return found
 
 
-def start_facts(shape: Any) -> runner.Job:
-    """Start the same in the background; the job's result is the dict."""
-    job = runner.start("validate", source.shape_of(shape))
+def start_facts(shape: Any, given: Mapping[str, Any] | None = None) -> runner.Job:
+    """Start the same in the background; the job's result is the dict.
+
+    Parameters
+    ----------
+    shape : Part.Shape or document object
+    given : mapping, optional
+        LinearDeflection (mm) and AngularDeflection (degrees), as those of an object.
+    """
+    job = runner.start("validate", source.shape_of(shape), properties.reading_of(given or {}))
     job.finish = _figures
     return job
 

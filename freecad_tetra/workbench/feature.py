@@ -165,8 +165,13 @@ def accept(obj: Any, pieces: Cells | TetMesh) -> None:
     It holds for the source and the properties as they were at `start`, and when they have
     changed since, the next recompute computes anew.
     """
-    _keep(obj, pieces, _made_of.get(pieces, ""))
+    _keep(obj, pieces, mark_of(pieces))
     obj.touch()
+
+
+def mark_of(pieces: Cells | TetMesh) -> str:
+    """Return the fingerprint of the input of `start`, "" for other pieces."""
+    return _made_of.get(pieces, "")
 
 
 def make_compound(obj: Any) -> None:

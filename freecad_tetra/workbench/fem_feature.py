@@ -68,6 +68,16 @@ def make(doc: Any, source_object: Any, analysis: Any, order: int, given: Mapping
     return obj
 
 
+def accept(obj: Any, mesh: TetMesh) -> None:
+    """Store the result of `feature.start`; the next recompute computes nothing.
+
+    It holds as that of `feature.accept` does.
+    """
+    obj.FemMesh = fem_mesh(elements(mesh, _order(obj.Order)))
+    store.figures(obj, mesh)
+    obj.Fingerprint = f"{feature.mark_of(mesh)} {obj.Order}"
+
+
 def fem_mesh(grid: Elements) -> Any:
     """Return a Fem.FemMesh; nodes and elements count from 1, triangles follow tetrahedra.
 

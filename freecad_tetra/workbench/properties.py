@@ -30,6 +30,7 @@ class Property:
     value: Any = None
 
 
+_DEFLECTIONS = ("LinearDeflection", "AngularDeflection")
 _BASE = {
     "Source": Property(
         "App::PropertyLinkGlobal", "Base",
@@ -178,6 +179,13 @@ def migrate(obj: Any, known: Mapping[str, Property]) -> None:
 
 def reading(obj: Any) -> dict[str, Any]:
     """Return the keywords of `freecad_tetra.api` for the deflections of an object."""
-    linear = compat.millimetres(obj.LinearDeflection)
-    angular = compat.degrees(obj.AngularDeflection)
-    return {"linear_deflection": linear or None, "angular_deflection": angular or None}
+    return reading_of({name: getattr(obj, name) for name in _DEFLECTIONS})
+
+
+def reading_of(given: Mapping[str, Any]) -> dict[str, Any]:
+    """Return the same for a mapping, in which deflections that are left out are automatic."""
+    linear, angular = (given.get(name, 0.0) for name in _DEFLECTIONS)
+    return {
+        "linear_deflection": compat.millimetres(linear) or None,
+        "angular_deflection": compat.degrees(angular) or None,
+    }
