@@ -21,10 +21,8 @@ std::vector<Box2> boxes_of(const Plan& plan, const std::vector<int>& triangles) 
     boxes.reserve(triangles.size());
     for (const int t : triangles) {
         const Triangle& tri = at(plan.input->triangles, t);
-        const Vec3i& a = plan.at(tri[0]);
-        Box2 box{a[0], a[1], a[0], a[1]};
-        for (const int v : tri)
-            box.add({plan.at(v)[0], plan.at(v)[1], plan.at(v)[0], plan.at(v)[1]});
+        Box2 box = box_around(plan.at(tri[0]), plan.at(tri[1]));
+        box.add(box_around(plan.at(tri[2])));
         boxes.push_back(box);
     }
     return boxes;
@@ -54,7 +52,7 @@ void Stabber::facets_beside(const Line& line, const Vec3i& point, std::vector<in
                             std::vector<int>& left) const {
     right.clear();
     left.clear();
-    const Box2 place{point[0], point[1], point[0], point[1]};
+    const Box2 place = box_around(point);
     const auto visit = [&](int item) {
         const int t = at(triangles_, item);
         const Triangle& tri = at(plan_.input->triangles, t);

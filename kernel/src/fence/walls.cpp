@@ -12,13 +12,9 @@ namespace {
 
 std::vector<Box2> boxes_of_obstacles(const Plan& plan) {
     std::vector<Box2> boxes;
-    const auto box = [&](int u, int v) {
-        const Vec3i &a = plan.at(u), &b = plan.at(v);
-        boxes.push_back({std::min(a[0], b[0]), std::min(a[1], b[1]), std::max(a[0], b[0]),
-                         std::max(a[1], b[1])});
-    };
-    for (const SharpEdge& e : plan.edges) box(e.u, e.v);
-    for (const int v : plan.flat_points) box(v, v);
+    boxes.reserve(plan.edges.size() + plan.flat_points.size());
+    for (const SharpEdge& e : plan.edges) boxes.push_back(box_around(plan.at(e.u), plan.at(e.v)));
+    for (const int v : plan.flat_points) boxes.push_back(box_around(plan.at(v)));
     return boxes;
 }
 
@@ -157,8 +153,7 @@ class Sweep {
             events_.push_back({at(plan_.point_of, edge.u), e, false, false});
             events_.push_back({at(plan_.point_of, edge.v), e, false, false});
         }
-        const Box2 stretch{std::min(a[0], b[0]), std::min(a[1], b[1]), std::max(a[0], b[0]),
-                           std::max(a[1], b[1])};
+        const Box2 stretch = box_around(a, b);
         const auto near = [&](const Box2& box) {
             if (!box.meets(stretch)) return false;
             const std::int64_t up = line.dx >= 0 ? line.dx * box.y1 : line.dx * box.y0;
