@@ -137,6 +137,12 @@ class TetComplex {
     // Pairs of triangles of the GridSolid whose facets exchanged skin by peels.
     const std::vector<std::array<int, 2>>& peeled_pairs() const { return peeled_; }
 
+    // A Steiner point inside the solid, on no tetrahedron yet; the grid place is rounded.
+    int add_inner_point(const Vec3d& grid, const Vec3d& place);
+    void drop_last_point();
+    // Replaces the tetrahedra by the cone from `apex` over their hull. All checks are the caller's.
+    void cone_over(const std::vector<int>& cavity, int apex);
+
     // Positions in the log; undo_to() takes back every apply() after a mark.
     std::size_t mark() const { return log_.size(); }
     void apply(const Flip& flip);
