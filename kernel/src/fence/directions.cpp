@@ -16,7 +16,7 @@ namespace tetra {
 namespace {
 
 constexpr std::int64_t kCoordinateLimit = std::int64_t{1} << 26;
-constexpr double kObliqueHandicap = 1.1;
+constexpr double kObliqueHandicap = 1.5;
 
 std::int64_t dot(const Vec3i& a, const Vec3i& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
 

@@ -45,7 +45,7 @@ FenceDirection lay_on_z(const Vec3i& direction);
 Vec3i nearest_integer_direction(const Vec3d& vector, int largest_entry);
 
 // The axes and all candidates, best first, those that were not rated last. An oblique direction has
-// to be a tenth cheaper than an axis to stand before it. `owner` as in FenceInput.
+// to cost a third less than an axis to stand before it. `owner` as in FenceInput.
 // \throw InvalidSolid when no direction can be rated; Cancelled.
 std::vector<FenceDirection> fence_directions(const std::vector<Vec3i>& points,
                                              const std::vector<Triangle>& triangles,
