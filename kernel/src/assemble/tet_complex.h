@@ -153,13 +153,14 @@ class TetComplex {
     int add(const Tet& t, int solid);
     void enter_star(int p, int t);
     bool exactly_positive(int a, int b, int c, int d) const;
-    // A triangle with its lowest corner left out: side of a tetrahedron, or skin triangle ~code.
+    void reserve(const std::vector<Tet>& tets);
+    // The two higher corners of a triangle; side of a tetrahedron, or skin triangle ~code.
     struct FaceKey {
-        int mid, high, code;
+        std::uint64_t corners;
+        int code;
     };
     void pair_faces(const ExactMesh& mesh);
-    void link_sides(const ExactMesh& mesh, const Triangle& here, const FaceKey* first,
-                    const FaceKey* last);
+    void link_sides(const ExactMesh& mesh, int lowest, const FaceKey* first, const FaceKey* last);
     bool faces_outward(int code, const Triangle& triangle) const;
     void set_neighbour(int code, int other) {
         neighbours_[static_cast<std::size_t>(code / 4)][static_cast<std::size_t>(code % 4)] = other;

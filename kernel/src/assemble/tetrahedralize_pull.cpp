@@ -38,8 +38,8 @@ PullOff choose_pull(const std::vector<Vec3i>& framed, const GridSolid& solid,
     if (all.cups.empty()) return chosen(std::move(none), "none", report);
     PullOff some = pull_off(framed, solid.triangles, owners, {25, PullMode::crossings}, progress);
     const std::int64_t k_none = some.crossings_before, k_some = some.crossings_after;
-    const std::int64_t k_all = projected_crossings(framed, all.triangles, all.owners, progress,
-                                                   std::min(k_none, k_some));
+    const std::int64_t k_all =
+        projected_crossings(framed, all.triangles, all.owners, progress, std::min(k_none, k_some));
     report.crossings = {{"none", k_none}, {"crossings", k_some}, {"all", k_all}};
     // A tie goes to the least pulling: without fewer crossings it only adds tetrahedra.
     if (k_all < std::min(k_none, k_some)) return chosen(std::move(all), "all", report);

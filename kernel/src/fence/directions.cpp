@@ -117,7 +117,8 @@ class Rater {
             add_facets();
             for (std::size_t i = 3; i < directions_.size(); ++i) rate(directions_[i]);
         }
-        if (std::ranges::all_of(directions_, &FenceDirection::refused)) throw InvalidSolid(defects_);
+        if (std::ranges::all_of(directions_, &FenceDirection::refused))
+            throw InvalidSolid(defects_);
         std::stable_sort(
             directions_.begin(), directions_.end(),
             [](const FenceDirection& a, const FenceDirection& b) { return weight(a) < weight(b); });

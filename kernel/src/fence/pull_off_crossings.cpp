@@ -15,13 +15,6 @@ constexpr double kSlack = 1e-6;
 
 std::size_t index(int i) { return static_cast<std::size_t>(i); }
 
-// Sign of the turn from a over b to c; exact while coordinates are below 2^30 (pull_off()).
-template <class Place>
-int turn(const Place& a, const Place& b, const Place& c) {
-    const std::int64_t left = (b.x - a.x) * (c.y - a.y), right = (b.y - a.y) * (c.x - a.x);
-    return (left > right) - (left < right);
-}
-
 int clamp_cell(double v, int count) {
     return std::clamp(static_cast<int>(std::floor(v)), 0, count - 1);
 }
@@ -87,7 +80,8 @@ void ProjectedEdges::insert(const VertexPair& edge) {
         free_edge_ = stored_[index(id)].next;
     }
     int& first = by_vertex_[index(edge[0])];
-    Stored& fresh = stored_[index(id)] = {place(edge[0]), place(edge[1]), edge, 0, first};
+    Stored& fresh = stored_[index(id)] = {
+        place(edge[0]), place(edge[1]), {place(edge[0]), place(edge[1])}, edge, 0, first};
     first = id;
     visit_cells(fresh.from, fresh.to, [&](std::size_t cell) {
         int at = free_entry_;
@@ -127,14 +121,14 @@ std::int64_t ProjectedEdges::crossings(const VertexPair& edge) {
         stamp_ = 1;
     }
     const Place a = place(edge[0]), b = place(edge[1]);
+    const PlanLine line(a, b);
     std::int64_t count = 0;
     visit_cells(a, b, [&](std::size_t cell) {
         for (int at = cells_[cell]; at >= 0; at = entries_[index(at)].next) {
             Stored& other = stored_[index(entries_[index(at)].edge)];
             if (other.stamp == stamp_) continue;
             other.stamp = stamp_;
-            const Place &c = other.from, &d = other.to;
-            count += turn(a, b, c) * turn(a, b, d) < 0 && turn(c, d, a) * turn(c, d, b) < 0;
+            count += line.parts(other.from, other.to) && other.line.parts(a, b);
         }
     });
     return count;

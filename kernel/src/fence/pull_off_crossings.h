@@ -26,8 +26,21 @@ class ProjectedEdges {
     struct Place {
         std::int64_t x, y;
     };
+    // The line through two places; exact while coordinates are below 2^30 (pull_off()).
+    struct PlanLine {
+        PlanLine() = default;
+        PlanLine(const Place& a, const Place& b)
+            : dx(b.x - a.x), dy(b.y - a.y), c(dx * a.y - dy * a.x) {}
+        // Are the places strictly on different sides?
+        bool parts(const Place& p, const Place& q) const {
+            const std::int64_t s = dx * p.y - dy * p.x - c, t = dx * q.y - dy * q.x - c;
+            return (s > 0 && t < 0) || (s < 0 && t > 0);
+        }
+        std::int64_t dx = 0, dy = 0, c = 0;
+    };
     struct Stored {
         Place from, to;
+        PlanLine line;
         VertexPair ends;
         std::uint32_t stamp;
         int next;  // with the same lower vertex, or of the free ones; -1 ends a list
