@@ -63,7 +63,14 @@ std::vector<FenceDirection> choose_frames(const GridSolid& solid, const std::vec
         DirectionOptions rating;
         rating.candidates = options.candidates;
         rating.largest_entry = kLargestEntry;
-        all = fence_directions(solid.points, solid.triangles, owners, rating, progress);
+        try {
+            all = fence_directions(solid.points, solid.triangles, owners, rating, progress);
+        } catch (const InvalidSolid& error) {
+            std::vector<Defect> defects = error.defects;
+            for (Defect& d : defects)
+                for (int& t : d.triangles) t = solid.triangle_source[static_cast<std::size_t>(t)];
+            throw InvalidSolid(std::move(defects));
+        }
     }
     trials.clear();
     std::vector<FenceDirection> fitting;
