@@ -33,7 +33,7 @@ struct DirectionOptions {
     int sampled_lines = 100;        // plan lines swept to rate one direction
     // Walls per triangle: an axis with fewer ends the search; the others are rated only when no
     // axis has fewer than `poor`.
-    double good = 0.5, poor = 2;
+    double good = 2.0, poor = 2;
 };
 
 // The map for one primitive or scaled integer vector, unrated.
