@@ -109,10 +109,10 @@ class Rater {
 
     std::vector<FenceDirection> run() {
         for (const Vec3i& axis : axes()) add(axis, "axis");
-        for (std::size_t i = 0; i < 3 && best_ > limit(options_.good); ++i) rate(directions_[i]);
-        const bool poor = best_ > limit(options_.poor);
+        const double good = options_.good * static_cast<double>(triangles_.size());
+        for (std::size_t i = 0; i < 3 && best_ > good; ++i) rate(directions_[i]);
         for (const Vec3d& v : options_.candidates) add(nearest(v), "given");
-        if (poor) {
+        if (best_ > good) {
             add_edges();
             add_facets();
             for (std::size_t i = 3; i < directions_.size(); ++i) rate(directions_[i]);
@@ -129,10 +129,6 @@ class Rater {
     static double weight(const FenceDirection& d) {
         if (d.cost < 0) return HUGE_VAL;
         return nonzeros(d.direction) == 1 ? d.cost : d.cost * kObliqueHandicap;
-    }
-
-    double limit(double walls_per_triangle) const {
-        return walls_per_triangle * static_cast<double>(triangles_.size());
     }
 
     // Those with most sides along them first: a prism is seen best along its axis.

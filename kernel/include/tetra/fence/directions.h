@@ -31,9 +31,9 @@ struct DirectionOptions {
     int from_edges = 2;             // commonest exact directions of sharp edges to be added
     int largest_entry = 7;          // of integer directions; a vector is taken to the nearest one
     int sampled_lines = 100;        // plan lines swept to rate one direction
-    // Walls per triangle: an axis with fewer ends the search; the others are rated only when no
-    // axis has fewer than `poor`.
-    double good = 2.0, poor = 2;
+    // Walls per triangle: the first axis with fewer ends the search; other directions than the axes
+    // are rated only when no axis has fewer.
+    double good = 2;
 };
 
 // The map for one primitive or scaled integer vector, unrated.
