@@ -61,7 +61,7 @@ def _direction(normals: FloatArray) -> FloatArray | None:
 
 def _add(found: list[tuple[float, FloatArray]], area: float, direction: FloatArray) -> None:
     for i, (before, other) in enumerate(found):
-        if np.linalg.norm(np.cross(direction, other)) < _PARALLEL:
+        if 1 - abs(direction @ other) < _PARALLEL**2 / 2:  # half the square of the angle
             found[i] = (before + area, other)
             return
     found.append((area, direction))

@@ -68,7 +68,9 @@ TEST(FenceDirections, ObliquePrismIsFound) {
     const TestSolid plate =
         map(plate_with_holes(2, 2), {{{1, 0, 2}, {0, 1, 1}, {0, 0, 1}}}, {0, 0, 0});
     Progress progress;
-    const auto list = fence_directions(plate.points, plate.triangles, {}, {}, progress);
+    DirectionOptions options;
+    options.good = 0;  // rate them all
+    const auto list = fence_directions(plate.points, plate.triangles, {}, options, progress);
     EXPECT_EQ(list.front().direction, (Vec3i{2, 1, 1}));
     for (const FenceDirection& d : list) {
         SCOPED_TRACE(d.name);
@@ -83,6 +85,14 @@ TEST(FenceDirections, ObliquePrismIsFound) {
             EXPECT_EQ(result.counts.steiner_points, 0);
         }
     }
+}
+
+TEST(FenceDirections, CheapAxisEndsTheSearch) {
+    const TestSolid plate = plate_with_holes(2, 2);
+    Progress progress;
+    const auto list = fence_directions(plate.points, plate.triangles, {}, {}, progress);
+    EXPECT_EQ(list.front().name, "z");
+    for (const FenceDirection& d : list) EXPECT_EQ(d.cost > 0, &d == &list.front()) << d.name;
 }
 
 TEST(FenceDirections, InvalidSolidIsTold) {

@@ -19,7 +19,7 @@ from random_solids import (
     random_voxel,
     shuffled,
 )
-from shapes_exact import cube_with_cavity, stairs, turned
+from shapes_exact import cube_with_cavity, sphere, stairs, turned
 
 from freecad_tetra.kernel import load
 
@@ -72,6 +72,18 @@ def tetrahedralize(surface: Any, **options: Any) -> dict[str, Any]:
     checked = validated(surface)
     vertices = np.ascontiguousarray(surface[0], float)
     return load().tetrahedralize(vertices, checked["triangles"], checked["solid"], options)
+
+
+def test_every_vertex_of_a_ball_comes_back():
+    """Its corners are no grid points: whole strips of its wall are creased by the grid."""
+    surface = sphere(100, 51, 2**20)
+    found = tetrahedralize(surface)
+    (solid,) = found["report"]["solids"]
+    assert solid["failed_attempts"] == []
+    assert found["report"]["repairs"]["vertices_on_grid"] == 0
+    own = found["point_source"] >= 0
+    assert sorted(found["point_source"][own]) == list(range(len(surface[0])))
+    assert (found["points"][own] == surface[0][found["point_source"][own]]).all()
 
 
 ARRAYS = ("points", "point_source", "tets", "tet_solid", "skin", "skin_source")

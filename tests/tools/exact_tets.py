@@ -8,12 +8,14 @@ vertices, and measured by distance, area and normal where Steiner points had to 
 
 from __future__ import annotations
 
-from collections import Counter
+import itertools
+import math
 from fractions import Fraction
 
 import numpy as np
 import numpy.typing as npt
 from exact_cells import FlagSum, from_fractions, plane_through
+from integer_flags import fits, same_surface
 
 
 class NotATetMesh(AssertionError):
@@ -25,55 +27,58 @@ def require(holds: bool, message: str) -> None:
         raise NotATetMesh(message)
 
 
-def as_integers(points: npt.ArrayLike) -> tuple[list[tuple[int, int, int]], int]:
-    """Doubles as integers over one common power of two, exact."""
-    rows = [[Fraction(c) for c in row] for row in np.asarray(points, dtype=float).tolist()]
-    scale = max((c.denominator for row in rows for c in row), default=1)
-    return [tuple(int(c * scale) for c in row) for row in rows], scale  # type: ignore[misc]
+def determinant(points: npt.NDArray[np.float64], tet: npt.NDArray[np.integer]) -> Fraction:
+    """det(b - a, c - a, d - a), exact."""
+    a, *others = ([Fraction(c) for c in row] for row in points[tet].tolist())
+    u, v, w = ([p[k] - a[k] for k in range(3)] for p in others)
+    return (
+        u[0] * (v[1] * w[2] - v[2] * w[1])
+        - u[1] * (v[0] * w[2] - v[2] * w[0])
+        + u[2] * (v[0] * w[1] - v[1] * w[0])
+    )
 
 
-def determinants(points: npt.ArrayLike, tets: npt.ArrayLike) -> tuple[list[int], int]:
-    """det(b - a, c - a, d - a) of each tetrahedron times scale^3, and the scale."""
-    grid, scale = as_integers(points)
-    result = []
-    for tet in np.asarray(tets).tolist():
-        a, *others = (grid[v] for v in tet)
-        u, v, w = ([p[k] - a[k] for k in range(3)] for p in others)
-        result.append(
-            u[0] * (v[1] * w[2] - v[2] * w[1])
-            - u[1] * (v[0] * w[2] - v[2] * w[0])
-            + u[2] * (v[0] * w[1] - v[1] * w[0])
-        )
-    return result, scale
+def not_positive(points: npt.NDArray[np.float64], tets: npt.NDArray[np.integer]) -> list[int]:
+    """Tetrahedra whose determinant is zero or less; exact where doubles can't tell."""
+    a, b, c, d = (points[tets[:, k]] for k in range(4))
+    u, v, w = (b - a).T, (c - a).T, (d - a).T
+    products = [u[i] * v[j] * w[k] for i, j, k in itertools.permutations(range(3))]
+    signs = [1, -1, -1, 1, 1, -1]  # of the permutations in that order
+    value = sum(sign * product for sign, product in zip(signs, products))
+    doubt = np.abs(value) <= 2.0**-48 * sum(np.abs(product) for product in products)
+    bad = [t for t in np.flatnonzero(doubt).tolist() if determinant(points, tets[t]) <= 0]
+    return sorted(bad + np.flatnonzero(~doubt & (value < 0)).tolist())
 
 
-def sorted_face(face: tuple[int, int, int]) -> tuple[tuple[int, ...], int]:
-    """Ascending ids, and +1 or -1 for an even or odd order."""
-    a, b, c = face
-    odd = (a > b) + (b > c) + (a > c)
-    return tuple(sorted(face)), -1 if odd % 2 else 1
+def volume6(points: npt.NDArray[np.float64], faces: npt.NDArray[np.integer]) -> float:
+    """Six times the volume within closed oriented triangles, to rounding."""
+    a, b, c = (points[faces[:, k]] - points[faces[0, 0]] for k in range(3))
+    return math.fsum(np.einsum("ij,ij->i", a, np.cross(b, c)).tolist())
 
 
-def unpaired_faces(tets: npt.ArrayLike) -> list[tuple[int, int, int]]:
+def unpaired_faces(tets: npt.NDArray[np.integer]) -> npt.NDArray[np.int64]:
     """Faces on one tetrahedron, outward; raises when a face is not on one or two, opposite."""
-    sides: dict[tuple[int, ...], list[tuple[int, tuple[int, int, int]]]] = {}
-    for a, b, c, d in np.asarray(tets).tolist():
-        for face in ((b, c, d), (a, d, c), (a, b, d), (a, c, b)):
-            key, sign = sorted_face(face)
-            sides.setdefault(key, []).append((sign, face))
-    skin = []
-    for key, uses in sides.items():
-        signs = sorted(sign for sign, _ in uses)
-        require(len(set(key)) == 3, f"a tetrahedron repeats a vertex in {key}")
-        require(signs in ([-1], [1], [-1, 1]), f"face {key} has tetrahedra on sides {signs}")
-        if len(uses) == 1:
-            skin.append(uses[0][1])
-    return skin
+    tets = tets.astype(np.int64)
+    faces = tets[:, [[1, 2, 3], [0, 3, 2], [0, 1, 3], [0, 2, 1]]].reshape(-1, 3)
+    rows = np.sort(faces, axis=1)
+    repeated = (rows[:, 1:] == rows[:, :-1]).any(axis=1)
+    require(not repeated.any(), f"a tetrahedron repeats a vertex in {rows[repeated][:1]}")
+    odd = (faces[:, 0] > faces[:, 1]) ^ (faces[:, 1] > faces[:, 2]) ^ (faces[:, 0] > faces[:, 2])
+    order = np.lexsort(rows.T)
+    rows, side = rows[order], np.where(odd[order], -1, 1)
+    start = np.flatnonzero(np.r_[True, (rows[1:] != rows[:-1]).any(axis=1)])
+    count = np.diff(np.r_[start, len(rows)])
+    both = np.add.reduceat(side, start)
+    wrong = (count > 2) | ((count == 2) & (both != 0))
+    require(not wrong.any(), f"faces have other than two opposite sides: {rows[start[wrong]][:1]}")
+    return faces[order[start[count == 1]]]
 
 
-def turned_to_least(face: tuple[int, int, int]) -> tuple[int, int, int]:
-    k = face.index(min(face))
-    return (face[k], face[(k + 1) % 3], face[(k + 2) % 3])
+def turned_to_least(faces: npt.NDArray[np.integer]) -> npt.NDArray[np.integer]:
+    """Each face from its least id on, and all in ascending order."""
+    turn = (faces.argmin(axis=1)[:, None] + np.arange(3)) % 3
+    turned = np.take_along_axis(faces, turn, axis=1)
+    return turned[np.lexsort(turned.T)]
 
 
 def verify_tets(
@@ -104,7 +109,7 @@ def verify_tets(
     Returns
     -------
     dict
-        Counts, the exact relative error of volume and what the skin was held to.
+        Counts, the relative error of volume and what the skin was held to.
 
     Raises
     ------
@@ -112,19 +117,16 @@ def verify_tets(
     """
     vertices, triangles = np.asarray(vertices, dtype=float), np.asarray(triangles)
     points, tets = np.asarray(points, dtype=float), np.asarray(tets)
-    dets, scale = determinants(points, tets)
-    bad = [i for i, det in enumerate(dets) if det <= 0]
+    bad = not_positive(points, tets)
     require(not bad, f"{len(bad)} tetrahedra are inverted or flat, the first is {bad[:1]}")
     free = unpaired_faces(tets)
     if skin is not None:
-        given = Counter(turned_to_least(tuple(t)) for t in np.asarray(skin).tolist())
+        given = turned_to_least(np.asarray(skin))
         require(
-            given == Counter(map(turned_to_least, free)), "skin differs from the unpaired faces"
+            np.array_equal(given, turned_to_least(free)), "skin differs from the unpaired faces"
         )
-    volume = Fraction(sum(dets), scale**3)
-    grid, unit = as_integers(vertices)
-    enclosed = Fraction(sum(_volume6(grid, t) for t in triangles.tolist()), unit**3)
-    error = float(abs(volume - enclosed) / enclosed)
+    enclosed = volume6(vertices, triangles)
+    error = abs(volume6(points, free) - enclosed) / enclosed
     tolerance = 1e-6 if moved else 1e-11
     require(error <= tolerance, f"volume differs by {error:.3g}")
     if point_source is not None:
@@ -132,21 +134,12 @@ def verify_tets(
     whole = bool((vertices == np.rint(vertices)).all())
     exact = whole and _check_skin_exactly(vertices, triangles, points, free)
     if not exact:
-        _check_skin_closely(vertices, triangles, points, np.array(free), tolerance)
+        _check_skin_closely(vertices, triangles, points, free, tolerance)
     if skin is not None and skin_source is not None:
         _check_skin_sources(
             vertices, triangles, points, np.asarray(skin), np.asarray(skin_source), moved
         )
     return {"tets": len(tets), "skin": len(free), "volume_error": error, "skin_exact": float(exact)}
-
-
-def _volume6(grid: list[tuple[int, int, int]], triangle: list[int]) -> int:
-    a, b, c = (grid[v] for v in triangle)
-    return (
-        a[0] * (b[1] * c[2] - b[2] * c[1])
-        + a[1] * (b[2] * c[0] - b[0] * c[2])
-        + a[2] * (b[0] * c[1] - b[1] * c[0])
-    )
 
 
 def _check_sources(
@@ -160,14 +153,10 @@ def _check_sources(
     own = source >= 0
     off = (points[own] != vertices[source[own]]).any(axis=1)
     require(int(off.sum()) <= moved, f"{off.sum()} input vertices have moved, {moved} told")
-    there = set(source[own].tolist())
+    absent = np.setdiff1d(triangles, source[own])
     # Vertices that share a place with another are represented by one of them.
-    places = {tuple(row) for row in points.tolist()}
-    lost = [
-        v
-        for v in np.unique(triangles).tolist()
-        if v not in there and tuple(vertices[v].tolist()) not in places
-    ]
+    places = {tuple(row) for row in points.tolist()} if len(absent) else set()
+    lost = [v for v in absent.tolist() if tuple(vertices[v].tolist()) not in places]
     require(not lost, f"input vertices {lost[:5]} are lost")
 
 
@@ -175,12 +164,18 @@ def _check_skin_exactly(
     vertices: npt.NDArray[np.float64],
     triangles: npt.NDArray[np.int32],
     points: npt.NDArray[np.float64],
-    free: list[tuple[int, int, int]],
+    free: npt.NDArray[np.int64],
 ) -> bool:
     """Flags cancel between skin and surface; False when some skin point is no input vertex."""
     own = {tuple(row) for row in vertices.tolist()}
-    if any(tuple(points[v].tolist()) not in own for face in free for v in face):
+    if any(tuple(row) not in own for row in points[np.unique(free)].tolist()):
         return False
+    middle = np.rint(vertices.mean(axis=0))
+    if fits(vertices - middle):
+        ours, theirs = ((a - middle).astype(np.int64) for a in (points, vertices))
+        same = same_surface(ours[free], theirs[triangles])
+        require(same, "the skin is not the solid's surface")
+        return True
     flags = FlagSum()
     exact: dict[tuple[float, ...], tuple[int, int, int, int]] = {}
 
@@ -190,8 +185,8 @@ def _check_skin_exactly(
             exact[key] = from_fractions(map(Fraction, row))
         return exact[key]
 
-    for array, faces, weight in ((points, free, 1), (vertices, triangles.tolist(), -1)):
-        for face in faces:
+    for array, faces, weight in ((points, free, 1), (vertices, triangles, -1)):
+        for face in faces.tolist():
             cycle = [place(array[v].tolist()) for v in face]
             plane = plane_through(*cycle)
             require(any(plane[:3]), "a skin triangle is flat")

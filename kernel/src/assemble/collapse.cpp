@@ -52,7 +52,10 @@ void skin_neighbours(const TetComplex& mesh, CollapseScratch& s) {
         for (; j < s.skin.size() && s.skin[j][0] == s.skin[i][0]; ++j)
             one_plane = one_plane && mesh.facet_class(s.skin[j][1]).plane == plane;
         if (!smooth(s.skin, i, j)) {
-            if (sharp_count == 2) return;
+            if (sharp_count == 2) {  // more edges meet, or two solids divide theirs differently
+                s.targets.clear();
+                return;
+            }
             sharp[sharp_count++] = {i, j};
         }
         s.targets.push_back({s.skin[i][0], 0});

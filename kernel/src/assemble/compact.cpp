@@ -39,9 +39,9 @@ class Compactor {
         } else {
             for (int round = 0; round < 2; ++round)
                 if (unlock_all(WalkOptions{}) == 0) break;
-            // Few points are left: longer walks for them cost little.
-            for (int round = 0; round < 2; ++round)
-                if (unlock_all({4, 12, 12, 7, 2, 2 * round}) == 0) break;
+            // Few points are left: longer walks for them cost little, shrinking their stars too
+            // much.
+            unlock_all({4, 12, 12, 7, 2, 0});
             reduce_all(sweep_);
             for (int sweep = 0; sweep < 2; ++sweep) neutral_sweep(sweep_);
         }

@@ -68,7 +68,11 @@ class Borders {
         const int grid_point = source_[index(end)];
         if (ends[0] == grid_point || ends[1] == grid_point) return;
         if (ends[0] >= 0 && ends[1] >= 0)
-            throw VerificationFailed("two sharp edges touch between their ends; move one of them");
+            throw InvalidSolid({{"edge_contact",
+                                 {ends[0], ends[1], grid_point},
+                                 {},
+                                 "two sharp edges meet without a common vertex near the listed "
+                                 "ones; divide both where they meet"}});
         ends[ends[0] < 0 ? 0 : 1] = grid_point;
     }
 

@@ -29,6 +29,12 @@ bool same_area(const std::array<Vec3d, 4>& corner, const std::array<int, 2>& old
     return area[1] >= least && area[1] <= most && norm(sum[0]) >= least && norm(sum[1]) >= least;
 }
 
+// Least height of a triangle.
+double altitude(const Vec3d& a, const Vec3d& b, const Vec3d& c) {
+    const double longest = std::max({norm(minus(b, a)), norm(minus(c, b)), norm(minus(a, c))});
+    return longest > 0 ? norm(normal_of(a, b, c)) / longest : 0;
+}
+
 bool on_skin(TetComplex& mesh, int a, int b) {
     for (int t : mesh.star_of(a)) {
         const Tet& v = mesh.tet(t);
@@ -62,11 +68,17 @@ bool may_peel(TetComplex& mesh, int t, const std::vector<Vec3d>& places) {
         caller[k] = places[at(v[k])];
         grid[k] = mesh.grid_place(v[k]);
     }
+    const double least = 1e-3 * mesh.grid().step;
     const auto flat = [&](const Tet& u) {
         return std::fabs(least_height(places[at(u[0])], places[at(u[1])], places[at(u[2])],
-                                      places[at(u[3])])) < 1e-3 * mesh.grid().step;
+                                      places[at(u[3])])) < least;
     };
     if (!flat(v)) return false;
+    // No tetrahedron has a volume on a triangle whose corners are in one line.
+    for (int i : inner) {
+        const int* f = kFace[i];
+        if (altitude(caller[at(f[0])], caller[at(f[1])], caller[at(f[2])]) < least) return false;
+    }
     // A flat neighbour with three skin faces would be left: nothing could free its tip.
     for (int i : inner) {
         const int below = mesh.neighbour(t, i) / 4;

@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "flip_walk.h"
+#include "insert_point.h"
 #include "peel.h"
 #include "restore_facets.h"
 #include "restore_targets.h"
@@ -261,15 +262,37 @@ class Restorer {
         const std::vector<int> group = group_of(p);
         if (group.size() > 1 && walk(group, 0)) return true;
         if (collapse_near(p)) return true;
-        // The last chance is worth longer walks and more of them.
         const bool last = floor_ == 0;
-        for (int k = 0; k < (last ? 5 : 1) * options_.walks; ++k) {
+        for (int k = 0; k < options_.walks; ++k) {
             progress_.poll("restore", 0.5);
             if (!walk(k % 4 == 3 ? group : std::vector<int>{p}, last ? 80 : 30)) continue;
             ++stats_.walks;
             return true;
         }
+        return last && insert_near(p);
+    }
+
+    // The last resort: one more point inside the solid.
+    bool insert_near(int p) {
+        const std::vector<int> bad = blockers(p);
+        settle(p);
+        if (insert_for(bad)) return true;
+        mesh_.set_place(p, home_[at(p)]);
+        moved_[at(p)] = 0;
         return false;
+    }
+
+    bool insert_for(const std::vector<int>& bad) {
+        const Insertion done =
+            insert_point(mesh_, bad, rng_, [&](const Tet& t) { return sound(t); });
+        if (done.point < 0) return false;
+        targets_.place.push_back(mesh_.place(done.point));
+        targets_.bound.push_back(0);
+        home_.push_back(mesh_.place(done.point));
+        moved_.push_back(1);
+        for (const int v : done.vanished) targets_.bound[at(v)] = 0;
+        ++stats_.inserted;
+        return true;
     }
 
     void unblock_all() {
@@ -293,6 +316,7 @@ class Restorer {
                 stats_.flips += walk.flips();
                 continue;
             }
+            if (insert_for({t})) continue;
             const Tet& v = mesh_.tet(t);
             std::string where;
             for (int p : v) where += " " + std::to_string(mesh_.carrier(p).first);

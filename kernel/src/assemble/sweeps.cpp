@@ -13,8 +13,19 @@ void touch(Sweep& s, const Flip& flip) {
         for (int p : v) (*s.dirty)[static_cast<std::size_t>(p)] = 1;
 }
 
+// Do the tetrahedra beside t at edge (i, j) end in one corner? Those of a ring of three do.
+bool closes_at_three(const TetComplex& mesh, int t, int i, int j) {
+    const int one = mesh.neighbour(t, kRest[i][j][0]), two = mesh.neighbour(t, kRest[i][j][1]);
+    if (one < 0 || two < 0) return false;
+    const auto corner = [&](int code) {
+        return mesh.tet(code / 4)[static_cast<std::size_t>(code % 4)];
+    };
+    return corner(one) == corner(two);
+}
+
 bool reduce_at(Sweep& s, int t) {
     for (const auto& e : kTetEdges) {
+        if (!closes_at_three(s.mesh, t, e[0], e[1])) continue;
         Ring ring;
         if (!find_ring(s.mesh, t, e[0], e[1], 3, ring) || ring.open || ring.size != 3) continue;
         Flip flip;

@@ -35,6 +35,10 @@ Triangle sorted(int a, int b, int c) {
     return {a, b, c};
 }
 
+std::uint64_t upper_corners(const Triangle& sorted) {
+    return static_cast<std::uint64_t>(sorted[1]) << 32 | static_cast<std::uint32_t>(sorted[2]);
+}
+
 }  // namespace
 
 FacetClasses facet_classes(const GridSolid& solid, std::span<const int> faces) {
@@ -89,10 +93,24 @@ TetComplex::TetComplex(const ExactMesh& mesh, const Grid& grid, const FacetClass
     grid_slack_ = 0x1p-50 * reach;
     place_slack_ = grid_slack_ + 0x1p-52 * far / frame_.step;
     stars_.resize(n);
-    tets_.reserve(mesh.tets.size() * 3 / 2);
+    reserve(mesh.tets);
     for (std::size_t t = 0; t < mesh.tets.size(); ++t)
         add(mesh.tets[t], mesh.tet_solid.empty() ? 0 : mesh.tet_solid[t]);
     pair_faces(mesh);
+}
+
+void TetComplex::reserve(const std::vector<Tet>& tets) {
+    std::vector<int> degree(stars_.size(), 0);
+    for (const Tet& t : tets)
+        for (const int v : t) ++degree[at(v)];
+    for (std::size_t p = 0; p < stars_.size(); ++p)
+        if (degree[p] > 0) stars_[p].reserve(at(degree[p] + degree[p] / 2 + 4));
+    const std::size_t room = tets.size() * 3 / 2;
+    tets_.reserve(room);
+    neighbours_.reserve(room);
+    alive_.reserve(room);
+    solid_.reserve(room);
+    stamp_.reserve(room);
 }
 
 // Buckets by lowest corner keep this linear but for the sort inside a bucket.
@@ -111,35 +129,36 @@ void TetComplex::pair_faces(const ExactMesh& mesh) {
     for (int t = 0; t < id_count(); ++t)
         for (int i = 0; i < 4; ++i) {
             const Triangle f = face(t, i);
-            keys[at(fill[at(f[0])]++)] = {f[1], f[2], 4 * t + i};
+            keys[at(fill[at(f[0])]++)] = {upper_corners(f), 4 * t + i};
         }
     for (std::size_t s = 0; s < mesh.skin.size(); ++s) {
         const Triangle f = sorted(mesh.skin[s][0], mesh.skin[s][1], mesh.skin[s][2]);
-        keys[at(fill[at(f[0])]++)] = {f[1], f[2], ~static_cast<int>(s)};
+        keys[at(fill[at(f[0])]++)] = {upper_corners(f), ~static_cast<int>(s)};
     }
     for (std::size_t p = 0; p + 1 < start.size(); ++p) {
         FaceKey* const first = keys.data() + start[p];
         FaceKey* const last = keys.data() + start[p + 1];
         // Tetrahedra (positive codes) come before skin triangles.
         std::sort(first, last, [](const FaceKey& a, const FaceKey& b) {
-            return std::tie(a.mid, a.high, b.code) < std::tie(b.mid, b.high, a.code);
+            return a.corners != b.corners ? a.corners < b.corners : a.code > b.code;
         });
         for (FaceKey* i = first; i != last;) {
             FaceKey* j = i;
-            while (j != last && j->mid == i->mid && j->high == i->high) ++j;
-            link_sides(mesh, {static_cast<int>(p), i->mid, i->high}, i, j);
+            while (j != last && j->corners == i->corners) ++j;
+            link_sides(mesh, static_cast<int>(p), i, j);
             i = j;
         }
     }
 }
 
 // All that lies on one triangle: two tetrahedra, or as many as skin triangles, which they face.
-void TetComplex::link_sides(const ExactMesh& mesh, const Triangle& here, const FaceKey* first,
+void TetComplex::link_sides(const ExactMesh& mesh, int lowest, const FaceKey* first,
                             const FaceKey* last) {
     const auto fail = [&](const char* what) {
         throw VerificationFailed(std::string("tetrahedra before compaction: ") + what +
-                                 " at points " + std::to_string(here[0]) + ", " +
-                                 std::to_string(here[1]) + ", " + std::to_string(here[2]));
+                                 " at points " + std::to_string(lowest) + ", " +
+                                 std::to_string(first->corners >> 32) + ", " +
+                                 std::to_string(first->corners & 0xffffffffu));
     };
     const FaceKey* skin = first;
     while (skin != last && skin->code >= 0) ++skin;

@@ -137,6 +137,12 @@ class TetComplex {
     // Pairs of triangles of the GridSolid whose facets exchanged skin by peels.
     const std::vector<std::array<int, 2>>& peeled_pairs() const { return peeled_; }
 
+    // A Steiner point inside the solid, on no tetrahedron yet; the grid place is rounded.
+    int add_inner_point(const Vec3d& grid, const Vec3d& place);
+    void drop_last_point();
+    // Replaces the tetrahedra by the cone from `apex` over their hull. All checks are the caller's.
+    void cone_over(const std::vector<int>& cavity, int apex);
+
     // Positions in the log; undo_to() takes back every apply() after a mark.
     std::size_t mark() const { return log_.size(); }
     void apply(const Flip& flip);
@@ -147,13 +153,14 @@ class TetComplex {
     int add(const Tet& t, int solid);
     void enter_star(int p, int t);
     bool exactly_positive(int a, int b, int c, int d) const;
-    // A triangle with its lowest corner left out: side of a tetrahedron, or skin triangle ~code.
+    void reserve(const std::vector<Tet>& tets);
+    // The two higher corners of a triangle; side of a tetrahedron, or skin triangle ~code.
     struct FaceKey {
-        int mid, high, code;
+        std::uint64_t corners;
+        int code;
     };
     void pair_faces(const ExactMesh& mesh);
-    void link_sides(const ExactMesh& mesh, const Triangle& here, const FaceKey* first,
-                    const FaceKey* last);
+    void link_sides(const ExactMesh& mesh, int lowest, const FaceKey* first, const FaceKey* last);
     bool faces_outward(int code, const Triangle& triangle) const;
     void set_neighbour(int code, int other) {
         neighbours_[static_cast<std::size_t>(code / 4)][static_cast<std::size_t>(code % 4)] = other;

@@ -10,8 +10,6 @@ namespace {
 
 constexpr std::int64_t kLargestCoordinate = std::int64_t{1} << 26;  // of fence_off
 constexpr int kLargestEntry = 7;
-// More of them cost more time than their better choice saves.
-constexpr int kSampledLines = 1000;
 
 std::int64_t reach(const std::vector<Vec3i>& points) {
     std::int64_t most = 0;
@@ -65,8 +63,14 @@ std::vector<FenceDirection> choose_frames(const GridSolid& solid, const std::vec
         DirectionOptions rating;
         rating.candidates = options.candidates;
         rating.largest_entry = kLargestEntry;
-        rating.sampled_lines = kSampledLines;
-        all = fence_directions(solid.points, solid.triangles, owners, rating, progress);
+        try {
+            all = fence_directions(solid.points, solid.triangles, owners, rating, progress);
+        } catch (const InvalidSolid& error) {
+            std::vector<Defect> defects = error.defects;
+            for (Defect& d : defects)
+                for (int& t : d.triangles) t = solid.triangle_source[static_cast<std::size_t>(t)];
+            throw InvalidSolid(std::move(defects));
+        }
     }
     trials.clear();
     std::vector<FenceDirection> fitting;
@@ -74,7 +78,7 @@ std::vector<FenceDirection> choose_frames(const GridSolid& solid, const std::vec
     for (FenceDirection& frame : all) {
         const bool fits = size * frame.growth <= kLargestCoordinate;
         trials.push_back({frame.name, frame.cost, fits ? frame.note : "too large for the grid"});
-        if (fits && (options.direction || frame.cost >= 0)) fitting.push_back(std::move(frame));
+        if (fits && !frame.refused) fitting.push_back(std::move(frame));
     }
     if (fitting.empty()) throw VerificationFailed("no fence direction fits the grid");
     return fitting;

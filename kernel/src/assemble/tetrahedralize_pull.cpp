@@ -7,11 +7,6 @@
 namespace tetra {
 namespace {
 
-std::int64_t crossings_of(const std::vector<Vec3i>& framed, const PullOff& state,
-                          Progress& progress) {
-    return projected_crossings(framed, state.triangles, state.owners, progress);
-}
-
 PullOff chosen(PullOff state, const char* name, SolidReport& report) {
     report.pulled = name;
     report.pull = state.statistics;
@@ -42,9 +37,9 @@ PullOff choose_pull(const std::vector<Vec3i>& framed, const GridSolid& solid,
         return chosen(std::move(all), "all", report);
     if (all.cups.empty()) return chosen(std::move(none), "none", report);
     PullOff some = pull_off(framed, solid.triangles, owners, {25, PullMode::crossings}, progress);
-    const std::int64_t k_none = crossings_of(framed, none, progress);
-    const std::int64_t k_some = crossings_of(framed, some, progress);
-    const std::int64_t k_all = crossings_of(framed, all, progress);
+    const std::int64_t k_none = some.crossings_before, k_some = some.crossings_after;
+    const std::int64_t k_all =
+        projected_crossings(framed, all.triangles, all.owners, progress, std::min(k_none, k_some));
     report.crossings = {{"none", k_none}, {"crossings", k_some}, {"all", k_all}};
     // A tie goes to the least pulling: without fewer crossings it only adds tetrahedra.
     if (k_all < std::min(k_none, k_some)) return chosen(std::move(all), "all", report);

@@ -174,15 +174,33 @@ class SolidWorker {
             pulled =
                 choose_pull(framed, input_.grid, owners_, policy, &everything_, report_, progress_);
         }
-        FenceResult fenced;
-        if (!pulled.triangles.empty()) {
-            const StageClock::Scope scope(clock_, "fence_off");
-            fenced = fence_off({framed, pulled.triangles, pulled.owners, {}, {}}, progress_);
-            for (HPoint& p : fenced.mesh.points) p = from_frame(frame, p);
+        try {
+            FenceResult fenced;
+            if (!pulled.triangles.empty()) {
+                const StageClock::Scope scope(clock_, "fence_off");
+                fenced = fence_off({framed, pulled.triangles, pulled.owners, {}, {}}, progress_);
+                for (HPoint& p : fenced.mesh.points) p = from_frame(frame, p);
+            }
+            report_.fences = fenced.counts;
+            const StageClock::Scope scope(clock_, "emit");
+            return emit_cups(fenced, pulled, {input_.grid.points, owner_triangle_, input_.solid});
+        } catch (const InvalidSolid& error) {
+            throw InvalidSolid(named_by_caller(error.defects, pulled));
         }
-        report_.fences = fenced.counts;
-        const StageClock::Scope scope(clock_, "emit");
-        return emit_cups(fenced, pulled, {input_.grid.points, owner_triangle_, input_.solid});
+    }
+
+    // Vertices are named as points of the grid, triangles as those that pulling left: their facets
+    // are the caller's unless a cup made them.
+    std::vector<Defect> named_by_caller(std::vector<Defect> defects, const PullOff& pulled) const {
+        for (Defect& d : defects) {
+            for (int& v : d.vertices) v = input_.grid.point_source[index(v)];
+            std::erase_if(d.triangles,
+                          [&](int t) { return pulled.owners[index(t)] >= pulled.first_cup; });
+            for (int& t : d.triangles)
+                t = input_.grid.triangle_source[index(
+                    owner_triangle_[index(pulled.owners[index(t)])])];
+        }
+        return defects;
     }
 
     // Points that no tetrahedron uses any more leave; the caller's vertices get their names.

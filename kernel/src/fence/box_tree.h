@@ -4,13 +4,16 @@
 
 #include <algorithm>
 #include <cstdint>
-#include <numeric>
+#include <utility>
 #include <vector>
+
+#include "tetra/exact/grid.h"
 
 namespace tetra::fence {
 
+// Coordinates of a plan fit 32 bits (FenceInput).
 struct Box2 {
-    std::int64_t x0, y0, x1, y1;
+    std::int32_t x0, y0, x1, y1;
     void add(const Box2& b) {
         x0 = std::min(x0, b.x0);
         y0 = std::min(y0, b.y0);
@@ -20,11 +23,27 @@ struct Box2 {
     bool meets(const Box2& b) const { return x0 <= b.x1 && b.x0 <= x1 && y0 <= b.y1 && b.y0 <= y1; }
 };
 
+inline Box2 box_around(const Vec3i& p) {
+    const auto x = static_cast<std::int32_t>(p[0]), y = static_cast<std::int32_t>(p[1]);
+    return {x, y, x, y};
+}
+
+inline Box2 box_around(const Vec3i& p, const Vec3i& q) {
+    Box2 box = box_around(p);
+    box.add(box_around(q));
+    return box;
+}
+
+// Halves of the boxes in the order of a Z curve through their centres, which one sort gives.
 class BoxTree {
   public:
-    explicit BoxTree(std::vector<Box2> boxes) : boxes_(std::move(boxes)), order_(boxes_.size()) {
-        std::iota(order_.begin(), order_.end(), 0);
-        if (!order_.empty()) build(0, static_cast<int>(order_.size()));
+    explicit BoxTree(const std::vector<Box2>& boxes) {
+        if (boxes.empty()) return;
+        items_.reserve(boxes.size());
+        for (const auto& [curve, item] : order_of(boxes))
+            items_.push_back({boxes[static_cast<std::size_t>(item)], item});
+        nodes_.reserve(boxes.size());
+        build(0, static_cast<int>(items_.size()));
     }
 
     // Calls visit(item) for each box for which near(box) holds; near must be monotone.
@@ -34,16 +53,17 @@ class BoxTree {
         int top = 0;
         if (!nodes_.empty()) stack[top++] = 0;
         while (top > 0) {
-            const Node& node = nodes_[static_cast<std::size_t>(stack[--top])];
+            const int at = stack[--top];
+            const Node& node = nodes_[static_cast<std::size_t>(at)];
             if (!near(node.box)) continue;
             if (node.right < 0) {
                 for (int i = node.first; i < node.last; ++i) {
-                    const int item = order_[static_cast<std::size_t>(i)];
-                    if (near(boxes_[static_cast<std::size_t>(item)])) visit(item);
+                    const Item& item = items_[static_cast<std::size_t>(i)];
+                    if (near(item.box)) visit(item.id);
                 }
             } else {
                 stack[top++] = node.right;
-                stack[top++] = static_cast<int>(&node - nodes_.data()) + 1;
+                stack[top++] = at + 1;
             }
         }
     }
@@ -53,33 +73,56 @@ class BoxTree {
         Box2 box;
         int first, last, right;  // right < 0: a leaf; the left child follows its parent
     };
-    static constexpr int kLeaf = 6;
+    struct Item {
+        Box2 box;
+        int id;
+    };
+    static constexpr int kLeaf = 4;
 
-    void build(int first, int last) {
-        const std::size_t self = nodes_.size();
-        Box2 box = boxes_[static_cast<std::size_t>(order_[static_cast<std::size_t>(first)])];
-        for (int i = first; i < last; ++i)
-            box.add(boxes_[static_cast<std::size_t>(order_[static_cast<std::size_t>(i)])]);
-        nodes_.push_back({box, first, last, -1});
-        if (last - first <= kLeaf) return;
-        const bool by_x = box.x1 - box.x0 >= box.y1 - box.y0;
-        const auto centre = [&](int i) {
-            const Box2& b = boxes_[static_cast<std::size_t>(i)];
-            return by_x ? b.x0 + b.x1 : b.y0 + b.y1;
-        };
-        const int middle = (first + last) / 2;
-        std::nth_element(order_.begin() + first, order_.begin() + middle, order_.begin() + last,
-                         [&](int i, int j) {
-                             const std::int64_t a = centre(i), b = centre(j);
-                             return a != b ? a < b : i < j;
-                         });
-        build(first, middle);
-        nodes_[self].right = static_cast<int>(nodes_.size());
-        build(middle, last);
+    static std::uint32_t spread(std::uint32_t v) {  // bits of v < 2^16 to the even places
+        v = (v | (v << 8)) & 0x00ff00ffu;
+        v = (v | (v << 4)) & 0x0f0f0f0fu;
+        v = (v | (v << 2)) & 0x33333333u;
+        return (v | (v << 1)) & 0x55555555u;
     }
 
-    std::vector<Box2> boxes_;
-    std::vector<int> order_;
+    static std::vector<std::pair<std::uint32_t, int>> order_of(const std::vector<Box2>& boxes) {
+        Box2 all = boxes.front();
+        for (const Box2& b : boxes) all.add(b);
+        const std::int64_t extent = 2 * std::max<std::int64_t>(std::int64_t{all.x1} - all.x0,
+                                                               std::int64_t{all.y1} - all.y0);
+        int shift = 0;
+        while ((extent >> shift) > 0xffff) ++shift;
+        const auto cell = [&](std::int64_t sum, std::int64_t least) {
+            return spread(static_cast<std::uint32_t>((sum - 2 * least) >> shift));
+        };
+        std::vector<std::pair<std::uint32_t, int>> order;
+        order.reserve(boxes.size());
+        for (const Box2& b : boxes)
+            order.emplace_back(cell(std::int64_t{b.x0} + b.x1, all.x0) |
+                                   cell(std::int64_t{b.y0} + b.y1, all.y0) << 1,
+                               static_cast<int>(order.size()));
+        std::sort(order.begin(), order.end());
+        return order;
+    }
+
+    Box2 build(int first, int last) {
+        const std::size_t self = nodes_.size();
+        nodes_.push_back({{}, first, last, -1});
+        Box2 box = items_[static_cast<std::size_t>(first)].box;
+        if (last - first <= kLeaf) {
+            for (int i = first + 1; i < last; ++i) box.add(items_[static_cast<std::size_t>(i)].box);
+        } else {
+            const int middle = (first + last) / 2;
+            box = build(first, middle);
+            nodes_[self].right = static_cast<int>(nodes_.size());
+            box.add(build(middle, last));
+        }
+        nodes_[self].box = box;
+        return box;
+    }
+
+    std::vector<Item> items_;
     std::vector<Node> nodes_;
 };
 

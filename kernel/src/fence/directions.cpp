@@ -16,8 +16,7 @@ namespace tetra {
 namespace {
 
 constexpr std::int64_t kCoordinateLimit = std::int64_t{1} << 26;
-constexpr double kObliqueHandicap = 1.1;
-constexpr double kWorthAnotherLook = 1.3;
+constexpr double kObliqueHandicap = 1.5;
 
 std::int64_t dot(const Vec3i& a, const Vec3i& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
 
@@ -109,14 +108,16 @@ class Rater {
           progress_(progress) {}
 
     std::vector<FenceDirection> run() {
-        add({1, 0, 0}, "axis");
-        add({0, 1, 0}, "axis");
-        add({0, 0, 1}, "axis");
+        for (const Vec3i& axis : axes()) add(axis, "axis");
+        const double good = options_.good * static_cast<double>(triangles_.size());
+        for (std::size_t i = 0; i < 3 && best_ > good; ++i) rate(directions_[i]);
         for (const Vec3d& v : options_.candidates) add(nearest(v), "given");
-        add_edges();
-        add_facets();
-        for (FenceDirection& d : directions_) rate(d);
-        if (std::ranges::all_of(directions_, [](const auto& d) { return d.cost < 0; }))
+        if (best_ > good) {
+            add_edges();
+            add_facets();
+            for (std::size_t i = 3; i < directions_.size(); ++i) rate(directions_[i]);
+        }
+        if (std::ranges::all_of(directions_, &FenceDirection::refused))
             throw InvalidSolid(defects_);
         std::stable_sort(
             directions_.begin(), directions_.end(),
@@ -128,6 +129,21 @@ class Rater {
     static double weight(const FenceDirection& d) {
         if (d.cost < 0) return HUGE_VAL;
         return nonzeros(d.direction) == 1 ? d.cost : d.cost * kObliqueHandicap;
+    }
+
+    // Those with most sides along them first: a prism is seen best along its axis.
+    std::array<Vec3i, 3> axes() const {
+        std::array<std::pair<int, Vec3i>, 3> order{
+            {{0, {1, 0, 0}}, {0, {0, 1, 0}}, {0, {0, 0, 1}}}};
+        for (const Triangle& t : triangles_)
+            for (std::size_t k = 0; k < 3; ++k) {
+                const Vec3i e = edge(t, k);
+                for (std::size_t axis = 0; axis < 3; ++axis)
+                    order[axis].first -= e[(axis + 1) % 3] == 0 && e[(axis + 2) % 3] == 0;
+            }
+        std::stable_sort(order.begin(), order.end(),
+                         [](const auto& a, const auto& b) { return a.first < b.first; });
+        return {order[0].second, order[1].second, order[2].second};
     }
 
     Vec3i nearest(const Vec3d& v) const {
@@ -203,14 +219,10 @@ class Rater {
             input.triangles = triangles_;
             input.owner = owner_;
             fence::Plan plan = fence::make_plan(input);
-            d.cost = counted(plan, options_.sampled_lines / 10, progress_);
-            // A first sample is enough to drop those that are far behind.
-            if (weight(d) > kWorthAnotherLook * best_) return;
-            if (static_cast<int>(plan.lines.size()) > options_.sampled_lines / 10)
-                d.cost = counted(plan, options_.sampled_lines, progress_);
+            d.cost = counted(plan, options_.sampled_lines, progress_);
             best_ = std::min(best_, weight(d));
         } catch (const InvalidSolid& error) {
-            d.cost = -1;
+            d.refused = true;
             d.note += ", " + std::string(error.what());
             defects_ = error.defects;
         }

@@ -8,6 +8,8 @@
 #include <stdexcept>
 #include <tuple>
 
+#include "coplanar.h"
+
 namespace tetra::fence {
 namespace {
 
@@ -15,20 +17,31 @@ constexpr std::int64_t kLargestCoordinate = std::int64_t{1} << 26;
 
 struct Side {  // one triangle's side, undirected
     int u, v, triangle;
-    friend auto operator<=>(const Side&, const Side&) = default;
 };
 
+// By u, v and triangle: one bucket for each u, which holds a handful.
 std::vector<Side> sorted_sides(const FenceInput& input) {
-    std::vector<Side> sides;
-    sides.reserve(3 * input.triangles.size());
-    for (int t = 0; t < static_cast<int>(input.triangles.size()); ++t) {
-        const Triangle& tri = at(input.triangles, t);
-        for (int k = 0; k < 3; ++k) {
-            const int u = at(tri, k), v = at(tri, (k + 1) % 3);
-            sides.push_back({std::min(u, v), std::max(u, v), t});
+    std::vector<int> next(input.points.size() + 1, 0);
+    const auto for_each_side = [&](auto visit) {
+        for (int t = 0; t < static_cast<int>(input.triangles.size()); ++t) {
+            const Triangle& tri = at(input.triangles, t);
+            for (int k = 0; k < 3; ++k) {
+                const auto [u, v] = std::minmax(at(tri, k), at(tri, (k + 1) % 3));
+                visit(Side{u, v, t});
+            }
         }
+    };
+    for_each_side([&](const Side& s) { ++at(next, s.u + 1); });
+    std::partial_sum(next.begin(), next.end(), next.begin());
+    std::vector<Side> sides(3 * input.triangles.size());
+    for_each_side([&](const Side& s) { at(sides, at(next, s.u)++) = s; });
+    for (auto first = sides.begin(); first != sides.end();) {
+        const auto last = sides.begin() + at(next, first->u);
+        std::sort(first, last, [](const Side& s, const Side& t) {
+            return s.v != t.v ? s.v < t.v : s.triangle < t.triangle;
+        });
+        first = last;
     }
-    std::sort(sides.begin(), sides.end());
     return sides;
 }
 
@@ -89,23 +102,21 @@ class PlanMaker {
     }
 
     void find_facets() {
-        PlaneTable table;
-        std::vector<PlaneKey> key;
-        for (const Triangle& t : input_.triangles)
-            key.push_back(
-                table.intern(plane_through(plan_.at(t[0]), plan_.at(t[1]), plan_.at(t[2]))));
         Union sets(triangle_count());
         for_each_edge(sides_, [&](const Side* first, const Side* last) {
             if (last - first != 2) return;
             const int s = first->triangle, t = first[1].triangle;
-            if (at(key, s) == at(key, t) && owner(s) == owner(t)) sets.join(s, t);
+            if (owner(s) == owner(t) &&
+                coplanar(input_.points, at(input_.triangles, s), at(input_.triangles, t)))
+                sets.join(s, t);
         });
         plan_.facet_of.resize(input_.triangles.size());
         for (int t = 0; t < triangle_count(); ++t) {
             const int root = sets.find(t);
             if (root == t) {
-                const PlaneKey k = at(key, t);
-                const Plane plane = k.side > 0 ? table[k.id] : opposite(table[k.id]);
+                const Triangle& tri = at(input_.triangles, t);
+                const Plane plane =
+                    plane_through(plan_.at(tri[0]), plan_.at(tri[1]), plan_.at(tri[2]));
                 at(plan_.facet_of, t) = plan_.facet_count();
                 plan_.facets.push_back({t, (plane.c > 0) - (plane.c < 0), plane});
             } else {
@@ -196,7 +207,8 @@ class PlanMaker {
         plan_.point_of.assign(input_.points.size(), -1);
         for (const Triangle& t : input_.triangles)
             for (const int v : t)
-                at(plan_.point_of, v) = plan_.points.vertex(plan_.at(v)[0], plan_.at(v)[1]);
+                if (at(plan_.point_of, v) < 0)
+                    at(plan_.point_of, v) = plan_.points.vertex(plan_.at(v)[0], plan_.at(v)[1]);
         std::vector<int> facet(input_.points.size(), -1);
         for (int t = 0; t < triangle_count(); ++t)
             for (const int v : at(input_.triangles, t)) at(facet, v) = at(plan_.facet_of, t);

@@ -35,8 +35,8 @@ class Puller {
         if (options.mode == PullMode::crossings) {
             const std::vector<VertexPair> edges = sharp_edges(surface_);
             seen_ = std::make_unique<ProjectedEdges>(points, edges.size());
-            for (const VertexPair& e : edges)
-                if (!is_vertical(surface_, e)) seen_->insert(e);
+            result_.crossings_before = replace_seen({}, edges, {});
+            result_.crossings_after = result_.crossings_before;
         }
     }
 
@@ -82,7 +82,7 @@ class Puller {
             degree <= s.judged_degree)
             return;
         s.judged_degree = degree;
-        const Crown crown = crown_of(surface_, v);
+        const Crown crown = crown_of(surface_, v, link_);
         if (crown.kind == PulledKind::mixed_owners) ++result_.statistics.refused_owner;
         if (crown.kind != PulledKind::favourable) return;
         if (crown.ring.size() > cap) {
@@ -124,7 +124,7 @@ class Puller {
     void attempt(int v) {
         PullStatistics& count = result_.statistics;
         ++count.tries;
-        Crown crown = crown_of(surface_, v);
+        Crown crown = crown_of(surface_, v, link_);
         if (crown.kind != PulledKind::favourable) return;
         const std::vector<Triangle> dome = dome_of(surface_, v, crown.ring);
         if (dome.empty()) {
@@ -180,8 +180,7 @@ class Puller {
         record(cup, flips);
         if (closing) close(cup, added.back());
         if (watch && closing) {
-            replace_seen(before, {}, {});
-            replace_seen({}, sharp_among(around), {});
+            result_.crossings_after += replace_seen(before, sharp_among(around), {});
         }
         for (const int v : touched) {
             if (surface_.star_of(v).empty()) tree_.erase(v);
@@ -240,7 +239,7 @@ class Puller {
         return sharp;
     }
 
-    // Erases `before` from the seen edges, inserts `after`; returns crossings won minus lost.
+    // Erases `before` from the seen edges, inserts `after`; returns the change in crossings.
     std::int64_t replace_seen(const std::vector<VertexPair>& before,
                               const std::vector<VertexPair>& after,
                               const std::vector<VertexPair>& unchanged) {
@@ -267,7 +266,10 @@ class Puller {
         std::set_intersection(before.begin(), before.end(), after.begin(), after.end(),
                               std::back_inserter(both));
         const std::int64_t change = replace_seen(before, after, both);
-        if (change < 0 || (change == 0 && after.size() < before.size())) return true;
+        if (change < 0 || (change == 0 && after.size() < before.size())) {
+            result_.crossings_after += change;
+            return true;
+        }
         replace_seen(after, before, both);
         return false;
     }
@@ -290,13 +292,15 @@ class Puller {
     std::vector<VertexState> state_;
     std::priority_queue<Entry, std::vector<Entry>, std::greater<>> heap_;
     std::unique_ptr<ProjectedEdges> seen_;
+    LinkBuffers link_;
     PullOff result_;
     std::size_t total_ = 1;
 };
 
 PulledKind classify(const PullSurface& surface, const PointTree& tree, int v) {
     if (surface.star_of(v).empty()) return PulledKind::unused;
-    const Crown crown = crown_of(surface, v);
+    LinkBuffers link;
+    const Crown crown = crown_of(surface, v, link);
     if (crown.kind != PulledKind::favourable) return crown.kind;
     const std::vector<Triangle> dome = dome_of(surface, v, crown.ring);
     if (dome.empty()) return PulledKind::without_dome;

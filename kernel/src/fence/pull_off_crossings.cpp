@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "tetra/exact/predicates.h"
 #include "tetra/fence/pull_off.h"
 
 namespace tetra {
@@ -14,9 +13,7 @@ namespace {
 // In cell units; far above the rounding of cell coordinates.
 constexpr double kSlack = 1e-6;
 
-std::uint64_t key_of(const VertexPair& e) {
-    return static_cast<std::uint64_t>(e[0]) << 32 | static_cast<std::uint32_t>(e[1]);
-}
+std::size_t index(int i) { return static_cast<std::size_t>(i); }
 
 int clamp_cell(double v, int count) {
     return std::clamp(static_cast<int>(std::floor(v)), 0, count - 1);
@@ -43,61 +40,79 @@ ProjectedEdges::ProjectedEdges(const std::vector<Vec3i>& points, std::size_t exp
     rows_ = static_cast<int>(height * scale_) + 1;
     origin_[0] = static_cast<double>(lo[0]);
     origin_[1] = static_cast<double>(lo[1]);
-    cells_.resize(static_cast<std::size_t>(columns_) * static_cast<std::size_t>(rows_));
+    cells_.assign(index(columns_) * index(rows_), -1);
+    by_vertex_.assign(points.size(), -1);
+    stored_.reserve(expected);
+    entries_.reserve(4 * expected);
 }
 
 template <class Visit>
-void ProjectedEdges::visit_cells(const VertexPair& edge, const Visit& visit) const {
-    double x[2], y[2];
-    for (int k = 0; k < 2; ++k) {
-        const Vec3i& p = point(edge[static_cast<std::size_t>(k)]);
-        x[k] = (static_cast<double>(p[0]) - origin_[0]) * scale_;
-        y[k] = (static_cast<double>(p[1]) - origin_[1]) * scale_;
-    }
+void ProjectedEdges::visit_cells(const Place& from, const Place& to, const Visit& visit) const {
+    double x[2] = {(static_cast<double>(from.x) - origin_[0]) * scale_,
+                   (static_cast<double>(to.x) - origin_[0]) * scale_};
+    double y[2] = {(static_cast<double>(from.y) - origin_[1]) * scale_,
+                   (static_cast<double>(to.y) - origin_[1]) * scale_};
     if (y[1] < y[0]) {
         std::swap(x[0], x[1]);
         std::swap(y[0], y[1]);
     }
     const int last_row = clamp_cell(y[1] + kSlack, rows_);
     for (int row = clamp_cell(y[0] - kSlack, rows_); row <= last_row; ++row) {
-        double from = x[0], to = x[1];
+        double low = x[0], high = x[1];
         if (y[1] - y[0] > 0.01) {
             const double slope = (x[1] - x[0]) / (y[1] - y[0]);
-            from = x[0] + slope * (std::max(y[0], row - kSlack) - y[0]);
-            to = x[0] + slope * (std::min(y[1], row + 1 + kSlack) - y[0]);
+            low = x[0] + slope * (std::max(y[0], row - kSlack) - y[0]);
+            high = x[0] + slope * (std::min(y[1], row + 1 + kSlack) - y[0]);
         }
-        if (to < from) std::swap(from, to);
-        const int last = clamp_cell(to + kSlack, columns_);
-        for (int column = clamp_cell(from - kSlack, columns_); column <= last; ++column)
-            visit(static_cast<std::size_t>(row) * static_cast<std::size_t>(columns_) +
-                  static_cast<std::size_t>(column));
+        if (high < low) std::swap(low, high);
+        const int last = clamp_cell(high + kSlack, columns_);
+        for (int column = clamp_cell(low - kSlack, columns_); column <= last; ++column)
+            visit(index(row) * index(columns_) + index(column));
     }
 }
 
 void ProjectedEdges::insert(const VertexPair& edge) {
-    int id = static_cast<int>(stored_.size());
-    if (free_.empty()) {
-        stored_.push_back({edge, 0});
+    int id = free_edge_;
+    if (id < 0) {
+        id = static_cast<int>(stored_.size());
+        stored_.emplace_back();
     } else {
-        id = free_.back();
-        free_.pop_back();
-        stored_[static_cast<std::size_t>(id)] = {edge, 0};
+        free_edge_ = stored_[index(id)].next;
     }
-    ids_[key_of(edge)] = id;
-    visit_cells(edge, [&](std::size_t cell) { cells_[cell].push_back(id); });
+    int& first = by_vertex_[index(edge[0])];
+    Stored& fresh = stored_[index(id)] = {
+        place(edge[0]), place(edge[1]), {place(edge[0]), place(edge[1])}, edge, 0, first};
+    first = id;
+    visit_cells(fresh.from, fresh.to, [&](std::size_t cell) {
+        int at = free_entry_;
+        if (at < 0) {
+            at = static_cast<int>(entries_.size());
+            entries_.emplace_back();
+        } else {
+            free_entry_ = entries_[index(at)].next;
+        }
+        entries_[index(at)] = {id, cells_[cell]};
+        cells_[cell] = at;
+    });
 }
 
 void ProjectedEdges::erase(const VertexPair& edge) {
-    const auto place = ids_.find(key_of(edge));
-    if (place == ids_.end()) return;
-    const int id = place->second;
-    visit_cells(edge, [&](std::size_t cell) {
-        auto& list = cells_[cell];
-        *std::find(list.begin(), list.end(), id) = list.back();
-        list.pop_back();
+    int* link = &by_vertex_[index(edge[0])];
+    while (*link >= 0 && stored_[index(*link)].ends != edge) link = &stored_[index(*link)].next;
+    const int id = *link;
+    if (id < 0) return;
+    Stored& gone = stored_[index(id)];
+    *link = gone.next;
+    gone.next = free_edge_;
+    free_edge_ = id;
+    visit_cells(gone.from, gone.to, [&](std::size_t cell) {
+        int* entry = &cells_[cell];
+        while (entries_[index(*entry)].edge != id) entry = &entries_[index(*entry)].next;
+        const int at = *entry;
+        *entry = entries_[index(at)].next;
+        entries_[index(at)].next = free_entry_;
+        free_entry_ = at;
     });
-    ids_.erase(place);
-    free_.push_back(id);
 }
 
 std::int64_t ProjectedEdges::crossings(const VertexPair& edge) {
@@ -105,21 +120,18 @@ std::int64_t ProjectedEdges::crossings(const VertexPair& edge) {
         for (Stored& s : stored_) s.stamp = 0;
         stamp_ = 1;
     }
+    const Place a = place(edge[0]), b = place(edge[1]);
+    const PlanLine line(a, b);
     std::int64_t count = 0;
-    visit_cells(edge, [&](std::size_t cell) {
-        for (const int id : cells_[cell]) {
-            Stored& other = stored_[static_cast<std::size_t>(id)];
+    visit_cells(a, b, [&](std::size_t cell) {
+        for (int at = cells_[cell]; at >= 0; at = entries_[index(at)].next) {
+            Stored& other = stored_[index(entries_[index(at)].edge)];
             if (other.stamp == stamp_) continue;
             other.stamp = stamp_;
-            if (cross(edge, other.ends)) ++count;
+            count += line.parts(other.from, other.to) && other.line.parts(a, b);
         }
     });
     return count;
-}
-
-bool ProjectedEdges::cross(const VertexPair& e, const VertexPair& f) const {
-    const Vec3i &a = point(e[0]), &b = point(e[1]), &c = point(f[0]), &d = point(f[1]);
-    return orient2d(a, b, c) * orient2d(a, b, d) < 0 && orient2d(c, d, a) * orient2d(c, d, b) < 0;
 }
 
 std::vector<VertexPair> sharp_edges(const PullSurface& surface) {
@@ -142,12 +154,13 @@ bool is_vertical(const PullSurface& surface, const VertexPair& edge) {
 
 std::int64_t projected_crossings(const std::vector<Vec3i>& points,
                                  const std::vector<Triangle>& triangles,
-                                 const std::vector<int>& owners, Progress& progress) {
+                                 const std::vector<int>& owners, Progress& progress,
+                                 std::int64_t enough) {
     const PullSurface surface(points, triangles, owners);
     const std::vector<VertexPair> edges = sharp_edges(surface);
     ProjectedEdges seen(points, edges.size());
     std::int64_t count = 0;
-    for (std::size_t i = 0; i < edges.size(); ++i) {
+    for (std::size_t i = 0; i < edges.size() && count < enough; ++i) {
         if (is_vertical(surface, edges[i])) continue;
         if (i % 16 == 0)
             progress.poll("crossings", static_cast<double>(i) / static_cast<double>(edges.size()));

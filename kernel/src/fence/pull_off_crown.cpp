@@ -10,13 +10,11 @@
 namespace tetra {
 namespace {
 
-struct LinkEdge {
-    int from, to, owner;
-};
-
 // The link of v as one cycle from the smallest id; empty when it is no single cycle.
-std::vector<LinkEdge> link_cycle(const PullSurface& surface, int v) {
-    std::vector<LinkEdge> edges;
+const std::vector<LinkEdge>& link_cycle(const PullSurface& surface, int v, LinkBuffers& link) {
+    auto& [edges, cycle] = link;
+    edges.clear();
+    cycle.clear();
     for (const int id : surface.star_of(v)) {
         const Triangle& t = surface.triangle(id);
         const std::size_t k = t[0] == v ? 0 : (t[1] == v ? 1 : 2);
@@ -25,8 +23,7 @@ std::vector<LinkEdge> link_cycle(const PullSurface& surface, int v) {
     const auto by_from = [](const LinkEdge& a, const LinkEdge& b) { return a.from < b.from; };
     std::sort(edges.begin(), edges.end(), by_from);
     for (std::size_t i = 0; i + 1 < edges.size(); ++i)
-        if (edges[i].from == edges[i + 1].from) return {};
-    std::vector<LinkEdge> cycle;
+        if (edges[i].from == edges[i + 1].from) return cycle;
     if (edges.size() < 3) return cycle;
     LinkEdge next = edges.front();
     while (cycle.size() < edges.size()) {
@@ -34,10 +31,10 @@ std::vector<LinkEdge> link_cycle(const PullSurface& surface, int v) {
         if (next.to == edges.front().from) break;
         const auto place =
             std::lower_bound(edges.begin(), edges.end(), LinkEdge{next.to, 0, 0}, by_from);
-        if (place == edges.end() || place->from != next.to) return {};
+        if (place == edges.end() || place->from != next.to) break;
         next = *place;
     }
-    if (cycle.size() != edges.size() || cycle.back().to != edges.front().from) return {};
+    if (cycle.size() != edges.size() || cycle.back().to != edges.front().from) cycle.clear();
     return cycle;
 }
 
@@ -147,9 +144,9 @@ class DomeSearch {
 
 }  // namespace
 
-Crown crown_of(const PullSurface& surface, int v) {
+Crown crown_of(const PullSurface& surface, int v, LinkBuffers& link) {
     Crown crown;
-    const std::vector<LinkEdge> cycle = link_cycle(surface, v);
+    const std::vector<LinkEdge>& cycle = link_cycle(surface, v, link);
     if (cycle.empty()) {
         crown.kind = PulledKind::nonmanifold;
         return crown;

@@ -24,8 +24,17 @@ struct Crown {
     std::vector<CrownFlip> flips;
 };
 
+struct LinkEdge {
+    int from, to, owner;
+};
+
+// Kept from call to call to spare allocations.
+struct LinkBuffers {
+    std::vector<LinkEdge> edges, cycle;
+};
+
 // The crown after the flips of P2; its ring starts at the smallest id.
-Crown crown_of(const PullSurface& surface, int v);
+Crown crown_of(const PullSurface& surface, int v, LinkBuffers& link);
 
 // ring.size() - 2 triangles of ring positions, outward for the remainder; empty if there is none.
 std::vector<Triangle> dome_of(const PullSurface& surface, int v, const std::vector<int>& ring);

@@ -23,18 +23,20 @@ class ClosedCup {
                 box_.lo[k] = std::min(box_.lo[k], surface.point(c)[k]);
                 box_.hi[k] = std::max(box_.hi[k], surface.point(c)[k]);
             }
-        // More planes than this cost more than the boxes they exclude.
-        const std::size_t planes = std::min<std::size_t>(ring.size(), 16);
-        for (std::size_t i = 0; i < planes; ++i)
-            normals_.push_back(lateral_normal(ring[i], ring[(i + 1) % ring.size()]));
     }
 
     // False only if the box holds no point of the closed cup.
     bool may_meet(const GridBox& box) const {
         for (std::size_t k = 0; k < 3; ++k)
             if (box.hi[k] < box_.lo[k] || box.lo[k] > box_.hi[k]) return false;
-        return std::none_of(normals_.begin(), normals_.end(),
-                            [&](const Normal& n) { return surely_outside(n, box); });
+        // More planes than this cost more than the boxes they exclude.
+        const std::size_t planes = std::min<std::size_t>(ring_.size(), 16);
+        for (std::size_t i = 0; i < planes; ++i) {
+            if (i == normals_.size())
+                normals_.push_back(lateral_normal(ring_[i], ring_[(i + 1) % ring_.size()]));
+            if (surely_outside(normals_[i], box)) return false;
+        }
+        return true;
     }
 
     bool holds(int p) const {
@@ -88,7 +90,7 @@ class ClosedCup {
     const std::vector<int>& ring_;
     const std::vector<Triangle>& dome_;
     GridBox box_;
-    std::vector<Normal> normals_;
+    mutable std::vector<Normal> normals_;  // as far as they were asked for
 };
 
 // Dome triangles grouped into plane faces; result[i] = group of triangle i.

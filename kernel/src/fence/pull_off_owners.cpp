@@ -2,7 +2,7 @@
 // Plane facets of a surface as connected components over flat edges.
 #include <numeric>
 
-#include "tetra/exact/plane.h"
+#include "coplanar.h"
 #include "tetra/fence/pull_off.h"
 #include "tetra/solid/edges.h"
 
@@ -19,12 +19,6 @@ std::size_t root_of(std::vector<std::size_t>& parent, std::size_t i) {
 std::vector<int> facet_owners(const std::vector<Vec3i>& points,
                               const std::vector<Triangle>& triangles, const std::vector<int>& face,
                               const std::vector<int>& solid) {
-    PlaneTable planes;
-    std::vector<PlaneKey> plane;
-    plane.reserve(triangles.size());
-    const auto at = [&](int id) -> const Vec3i& { return points[static_cast<std::size_t>(id)]; };
-    for (const Triangle& t : triangles)
-        plane.push_back(planes.intern(plane_through(at(t[0]), at(t[1]), at(t[2]))));
     std::vector<std::size_t> parent(triangles.size());
     std::iota(parent.begin(), parent.end(), std::size_t{0});
     const EdgeTable edges = build_edges(triangles, solid);
@@ -33,7 +27,8 @@ std::vector<int> facet_owners(const std::vector<Vec3i>& points,
         if (sides.size() != 2) continue;
         const auto a = static_cast<std::size_t>(sides[0] / 3);
         const auto b = static_cast<std::size_t>(sides[1] / 3);
-        if (plane[a] != plane[b] || (!face.empty() && face[a] != face[b])) continue;
+        if (!face.empty() && face[a] != face[b]) continue;
+        if (!fence::coplanar(points, triangles[a], triangles[b])) continue;
         const std::size_t ra = root_of(parent, a), rb = root_of(parent, b);
         parent[std::max(ra, rb)] = std::min(ra, rb);
     }

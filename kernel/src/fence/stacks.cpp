@@ -21,10 +21,8 @@ std::vector<Box2> boxes_of(const Plan& plan, const std::vector<int>& triangles) 
     boxes.reserve(triangles.size());
     for (const int t : triangles) {
         const Triangle& tri = at(plan.input->triangles, t);
-        const Vec3i& a = plan.at(tri[0]);
-        Box2 box{a[0], a[1], a[0], a[1]};
-        for (const int v : tri)
-            box.add({plan.at(v)[0], plan.at(v)[1], plan.at(v)[0], plan.at(v)[1]});
+        Box2 box = box_around(plan.at(tri[0]), plan.at(tri[1]));
+        box.add(box_around(plan.at(tri[2])));
         boxes.push_back(box);
     }
     return boxes;
@@ -54,7 +52,7 @@ void Stabber::facets_beside(const Line& line, const Vec3i& point, std::vector<in
                             std::vector<int>& left) const {
     right.clear();
     left.clear();
-    const Box2 place{point[0], point[1], point[0], point[1]};
+    const Box2 place = box_around(point);
     const auto visit = [&](int item) {
         const int t = at(triangles_, item);
         const Triangle& tri = at(plan_.input->triangles, t);
@@ -72,42 +70,83 @@ void Stabber::facets_beside(const Line& line, const Vec3i& point, std::vector<in
 }
 
 void Stack::toggle(int facet) {
-    const auto place = std::find(facets_.begin(), facets_.end(), facet);
-    if (place == facets_.end())
-        facets_.push_back(facet);
+    const auto place = std::find(toggled_.begin(), toggled_.end(), facet);
+    if (place == toggled_.end())
+        toggled_.push_back(facet);
     else
-        facets_.erase(place);
+        toggled_.erase(place);
+}
+
+Stack::Entry Stack::entry(int facet, const Strip& strip) const {
+    const Surface& s = at(plan_.surfaces, facet);
+    return {facet, at(strip.edge_of, facet), height(s, plan_.points[strip.from]),
+            height(s, plan_.points[strip.to])};
 }
 
 // Sign of s against t in the strip; 0 when both lie in one plane.
-int Stack::compare(const Entry& s, const Entry& t, const Line& line, int from, int to) const {
+int Stack::compare(const Entry& s, const Entry& t, const Strip& strip) const {
     const Surface &a = at(plan_.surfaces, s.facet), &b = at(plan_.surfaces, t.facet);
+    const Line& line = strip.line;
     int order = 0;
     if (s.edge < 0 || s.edge != t.edge) {
-        order = compare_heights(a, s.from, b, t.from, plan_.points[from]);
-        if (order == 0) order = compare_heights(a, s.to, b, t.to, plan_.points[to]);
+        order = compare_heights(a, s.from, b, t.from, plan_.points[strip.from]);
+        if (order == 0) order = compare_heights(a, s.to, b, t.to, plan_.points[strip.to]);
     }
     if (order == 0)
         order = compare_slopes(a, b, left_ ? -line.dy : line.dy, left_ ? line.dx : -line.dx);
     return order;
 }
 
-void Stack::sort(const Line& line, int from, int to, const std::vector<int>& edge_of) {
+bool Stack::below(const Entry& s, const Entry& t, const Strip& strip) const {
+    int order = compare(s, t, strip);
+    if (order == 0) order = at(plan_.facets, t.facet).side - at(plan_.facets, s.facet).side;
+    return order != 0 ? order < 0 : s.facet < t.facet;
+}
+
+void Stack::arrange(const Strip& strip, bool all) {
+    if (all)
+        sort_all(strip);
+    else
+        move_toggled(strip);
+    toggled_.clear();
+}
+
+void Stack::sort_all(const Strip& strip) {
     entries_.clear();
-    for (const int f : facets_) {
-        const Surface& s = at(plan_.surfaces, f);
-        entries_.push_back(
-            {f, at(edge_of, f), height(s, plan_.points[from]), height(s, plan_.points[to])});
-    }
-    std::sort(entries_.begin(), entries_.end(), [&](const Entry& s, const Entry& t) {
-        int order = compare(s, t, line, from, to);
-        if (order == 0) order = at(plan_.facets, t.facet).side - at(plan_.facets, s.facet).side;
-        return order != 0 ? order < 0 : s.facet < t.facet;
-    });
+    for (const int f : facets_) entries_.push_back(entry(f, strip));
+    std::sort(entries_.begin(), entries_.end(),
+              [&](const Entry& s, const Entry& t) { return below(s, t, strip); });
     for (std::size_t i = 0; i < entries_.size(); ++i) facets_[i] = entries_[i].facet;
     check_alternation();
     for (std::size_t i = 1; i + 1 < entries_.size(); i += 2)
-        if (compare(entries_[i], entries_[i + 1], line, from, to) == 0) refuse_contact(i);
+        if (compare(entries_[i], entries_[i + 1], strip) == 0)
+            refuse_contact(facets_[i], facets_[i + 1]);
+}
+
+void Stack::move_toggled(const Strip& strip) {
+    std::erase_if(toggled_, [&](int facet) {
+        const auto place = std::find(facets_.begin(), facets_.end(), facet);
+        if (place == facets_.end()) return false;
+        facets_.erase(place);
+        return true;
+    });
+    for (const int facet : toggled_) {
+        const Entry fresh = entry(facet, strip);
+        const auto place = std::partition_point(facets_.begin(), facets_.end(), [&](int other) {
+            return below(entry(other, strip), fresh, strip);
+        });
+        facets_.insert(place, facet);
+    }
+    check_alternation();
+    for (const int facet : toggled_) {
+        const auto i = static_cast<std::size_t>(std::find(facets_.begin(), facets_.end(), facet) -
+                                                facets_.begin());
+        // The space above a ceiling, or below a floor.
+        const std::size_t lower = i % 2 == 1 ? i : i - 1;
+        if (i == 0 || lower + 1 >= facets_.size()) continue;
+        if (compare(entry(facets_[lower], strip), entry(facets_[lower + 1], strip), strip) == 0)
+            refuse_contact(facets_[lower], facets_[lower + 1]);
+    }
 }
 
 void Stack::check_alternation() const {
@@ -127,13 +166,12 @@ void Stack::check_alternation() const {
 }
 
 // Rule R12: a ceiling with a floor back to back on it.
-void Stack::refuse_contact(std::size_t i) const {
-    throw InvalidSolid(
-        {{"face_contact",
-          {},
-          {at(plan_.facets, facets_[i]).triangle, at(plan_.facets, facets_[i + 1]).triangle},
-          "two shells share part of a face; join them, separate them, or make them "
-          "different solids"}});
+void Stack::refuse_contact(int lower, int upper) const {
+    throw InvalidSolid({{"face_contact",
+                         {},
+                         {at(plan_.facets, lower).triangle, at(plan_.facets, upper).triangle},
+                         "two shells share part of a face; join them, separate them, or make them "
+                         "different solids"}});
 }
 
 }  // namespace tetra::fence

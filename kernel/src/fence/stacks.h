@@ -27,16 +27,27 @@ class Stack {
   public:
     Stack(const Plan& plan, bool left) : plan_(plan), left_(left) {}
 
+    // To be filled in any order at the start of a stretch, then arrange() with `all`.
     std::vector<int>& facets() { return facets_; }
     int pair_count() const { return static_cast<int>(facets_.size() / 2); }
     int floor(int pair) const { return at(facets_, 2 * pair); }
     int ceiling(int pair) const { return at(facets_, 2 * pair + 1); }
 
+    // The facet leaves or enters at the next arrange(); twice cancels.
     void toggle(int facet);
-    // Sorts bottom up for the strip between two plan points of the line. `edge_of` names for each
-    // facet an edge that bounds it over this stretch, or is negative.
+    bool changed() const { return !toggled_.empty(); }
+
+    // Where a strip lies: between two plan points of the line. `edge_of` names for each facet an
+    // edge that bounds it over this stretch, or is negative.
+    struct Strip {
+        const Line& line;
+        int from, to;
+        const std::vector<int>& edge_of;
+    };
+    // Puts the facets into their order, bottom up. Those that stay keep their order among
+    // themselves, as facets do not cross: only entering ones are compared, unless `all` are new.
     // \throw InvalidSolid when floors and ceilings do not alternate.
-    void sort(const Line& line, int from, int to, const std::vector<int>& edge_of);
+    void arrange(const Strip& strip, bool all);
 
   private:
     struct Entry {
@@ -44,13 +55,17 @@ class Stack {
         int edge;
         Height from, to;
     };
-    int compare(const Entry& s, const Entry& t, const Line& line, int from, int to) const;
+    Entry entry(int facet, const Strip& strip) const;
+    int compare(const Entry& s, const Entry& t, const Strip& strip) const;
+    bool below(const Entry& s, const Entry& t, const Strip& strip) const;
+    void sort_all(const Strip& strip);
+    void move_toggled(const Strip& strip);
     void check_alternation() const;
-    [[noreturn]] void refuse_contact(std::size_t i) const;
+    [[noreturn]] void refuse_contact(int lower, int upper) const;
 
     const Plan& plan_;
     bool left_;
-    std::vector<int> facets_;
+    std::vector<int> facets_, toggled_;
     std::vector<Entry> entries_;
 };
 

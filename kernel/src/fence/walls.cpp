@@ -12,13 +12,9 @@ namespace {
 
 std::vector<Box2> boxes_of_obstacles(const Plan& plan) {
     std::vector<Box2> boxes;
-    const auto box = [&](int u, int v) {
-        const Vec3i &a = plan.at(u), &b = plan.at(v);
-        boxes.push_back({std::min(a[0], b[0]), std::min(a[1], b[1]), std::max(a[0], b[0]),
-                         std::max(a[1], b[1])});
-    };
-    for (const SharpEdge& e : plan.edges) box(e.u, e.v);
-    for (const int v : plan.flat_points) box(v, v);
+    boxes.reserve(plan.edges.size() + plan.flat_points.size());
+    for (const SharpEdge& e : plan.edges) boxes.push_back(box_around(plan.at(e.u), plan.at(e.v)));
+    for (const int v : plan.flat_points) boxes.push_back(box_around(plan.at(v)));
     return boxes;
 }
 
@@ -88,10 +84,10 @@ class Sweep {
         open_.clear();
         own_active_.clear();
         std::size_t next_own = 0;
-        bool dirty[2] = {true, true};
+        bool first_strip = true;
         for (std::size_t i = 0; i < events_.size();) {
             const int point = events_[i].point;
-            for (; i < events_.size() && events_[i].point == point; ++i) pass(events_[i], dirty);
+            for (; i < events_.size() && events_[i].point == point; ++i) pass(events_[i]);
             bool own_changed = next_own == 0;
             own_changed |= std::erase_if(own_active_, [&](int e) {
                                return at(plan_.point_of, at(plan_.edges, e).v) == point;
@@ -104,22 +100,25 @@ class Sweep {
                 close_walls(point);
                 return;
             }
-            sort_stacks(line, point, events_[i].point, dirty);
+            const bool changed =
+                arrange_stacks({line, point, events_[i].point, edge_of_}, first_strip);
             for (const int e : own_active_) note_edge(point, e);
-            if (dirty[0] || dirty[1] || own_changed)
+            if (changed || own_changed)
                 build_walls(point, events_[i].point);
             else
                 continue_walls(point);
-            dirty[0] = dirty[1] = false;
+            first_strip = false;
         }
     }
 
-    void sort_stacks(const Line& line, int from, int to, const bool (&dirty)[2]) {
-        if (!dirty[0] && !dirty[1]) return;
+    // False when both stay as they are.
+    bool arrange_stacks(const Stack::Strip& strip, bool all) {
+        if (!all && !stacks_[0].changed() && !stacks_[1].changed()) return false;
         name_edges(true);
-        for (int k = 0; k < 2; ++k)
-            if (dirty[k]) stacks_[k].sort(line, from, to, edge_of_);
+        for (Stack& stack : stacks_)
+            if (all || stack.changed()) stack.arrange(strip, all);
         name_edges(false);
+        return true;
     }
 
     // Facets that hang on an edge of the line have its height over it: no arithmetic is needed.
@@ -130,7 +129,7 @@ class Sweep {
 
     int start_of(int edge) const { return at(plan_.point_of, at(plan_.edges, edge).u); }
 
-    void pass(const Event& event, bool (&dirty)[2]) {
+    void pass(const Event& event) {
         if (event.edge < 0) return;
         note_edge(event.point, event.edge);
         // The first point is behind the place where the stacks were found.
@@ -139,8 +138,6 @@ class Sweep {
             if (at(plan_.facets, f).side == 0) continue;
             if (event.right) stacks_[0].toggle(f);
             if (event.left) stacks_[1].toggle(f);
-            dirty[0] |= event.right;
-            dirty[1] |= event.left;
         }
     }
 
@@ -157,8 +154,7 @@ class Sweep {
             events_.push_back({at(plan_.point_of, edge.u), e, false, false});
             events_.push_back({at(plan_.point_of, edge.v), e, false, false});
         }
-        const Box2 stretch{std::min(a[0], b[0]), std::min(a[1], b[1]), std::max(a[0], b[0]),
-                           std::max(a[1], b[1])};
+        const Box2 stretch = box_around(a, b);
         const auto near = [&](const Box2& box) {
             if (!box.meets(stretch)) return false;
             const std::int64_t up = line.dx >= 0 ? line.dx * box.y1 : line.dx * box.y0;

@@ -3,6 +3,7 @@
 #include "tetra/solid/edges.h"
 
 #include <algorithm>
+#include <numeric>
 #include <string>
 
 #include "groups.h"
@@ -23,6 +24,48 @@ struct Incidence {
         return a.half_edge < b.half_edge;
     }
 };
+
+// Buckets by solid and lower vertex hold a handful each; only within them is there much to sort.
+std::vector<Incidence> sorted_incidences(std::span<const Triangle> triangles,
+                                         std::span<const int> solid) {
+    int points = 0, solids = 1;
+    for (const Triangle& t : triangles) points = std::max({points, t[0] + 1, t[1] + 1, t[2] + 1});
+    bool dense = true;
+    for (const int s : solid) {
+        solids = std::max(solids, s + 1);
+        dense = dense && s >= 0;
+    }
+    std::vector<Incidence> all(3 * triangles.size());
+    const auto visit_all = [&](auto visit) {
+        for (std::size_t t = 0; t < triangles.size(); ++t)
+            for (int i = 0; i < 3; ++i) {
+                const int h = static_cast<int>(3 * t) + i;
+                const auto [low, high] =
+                    std::minmax({tail_of(triangles, h), head_of(triangles, h)});
+                visit(Incidence{solid.empty() ? 0 : solid[t], low, high, h});
+            }
+    };
+    const std::size_t buckets = static_cast<std::size_t>(solids) * static_cast<std::size_t>(points);
+    if (!dense || buckets > 8 * all.size() + 64) {  // most buckets would be empty
+        visit_all([&, i = std::size_t{0}](const Incidence& x) mutable { all[i++] = x; });
+        std::sort(all.begin(), all.end());
+        return all;
+    }
+    const auto bucket = [&](const Incidence& x) {
+        return static_cast<std::size_t>(x.solid) * static_cast<std::size_t>(points) +
+               static_cast<std::size_t>(x.low);
+    };
+    std::vector<int> next(buckets + 1, 0);
+    visit_all([&](const Incidence& x) { ++next[bucket(x) + 1]; });
+    std::partial_sum(next.begin(), next.end(), next.begin());
+    visit_all([&](const Incidence& x) { all[static_cast<std::size_t>(next[bucket(x)]++)] = x; });
+    for (auto first = all.begin(); first != all.end();) {
+        const auto last = all.begin() + next[bucket(*first)];
+        std::sort(first, last);
+        first = last;
+    }
+    return all;
+}
 
 int forward_minus_backward(std::span<const Triangle> triangles, std::span<const int> half_edges,
                            int low) {
@@ -196,17 +239,11 @@ class BoundaryDefects {
 }  // namespace
 
 EdgeTable build_edges(std::span<const Triangle> triangles, std::span<const int> solid) {
-    std::vector<Incidence> all;
-    all.reserve(3 * triangles.size());
-    for (std::size_t t = 0; t < triangles.size(); ++t)
-        for (int i = 0; i < 3; ++i) {
-            const int h = static_cast<int>(3 * t) + i;
-            const int u = tail_of(triangles, h), v = head_of(triangles, h);
-            all.push_back({solid.empty() ? 0 : solid[t], std::min(u, v), std::max(u, v), h});
-        }
-    std::sort(all.begin(), all.end());
+    const std::vector<Incidence> all = sorted_incidences(triangles, solid);
     EdgeTable table;
     table.half_edges.reserve(all.size());
+    table.edges.reserve(all.size() / 2);
+    table.first.reserve(all.size() / 2 + 1);
     for (std::size_t i = 0; i < all.size(); ++i) {
         if (i == 0 || !all[i].same_edge(all[i - 1])) {
             table.first.push_back(static_cast<int>(i));

@@ -23,8 +23,8 @@ struct PulledSurface {
 // the straight edge between input points as its carrier.
 //
 // Pure bookkeeping, no arithmetic: O(n log n).
-// \throw VerificationFailed when the boundary of a dome doesn't run along its crown, or a point
-//        that is no input point lies where edges meet.
+// \throw InvalidSolid (edge_contact, vertices of the grid) when sharp edges meet without a common
+//        vertex; VerificationFailed when the boundary of a dome doesn't run along its crown.
 ExactMesh emit_cups(const FenceResult& fenced, const PullOff& pulled, const PulledSurface& surface);
 
 }  // namespace tetra

@@ -31,6 +31,7 @@ struct RestoreStats {
     int walks = 0;              // points that needed a walk
     int peeled = 0;             // flat skin tetrahedra deleted
     int collapses = 0;          // Steiner points removed since they were in the way
+    int inserted = 0;           // Steiner points put inside since nothing else helped
     int slivers = 0;            // tetrahedra lower than 1e-6 grid steps in the end
     int quality_flips = 0;
     std::vector<int> left;  // the caller's vertices that stay on the grid

@@ -19,9 +19,10 @@ struct FenceDirection {
     std::array<Vec3i, 3> matrix{{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}};
     std::array<Vec3i, 3> inverse{{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}};
     int growth = 1;  // largest sum of magnitudes in a row of the matrix
-    double cost =
-        -1;  // walls of the fence-off seen this way, estimated on big solids; -1 = unrated
-    std::string note;  // where it comes from, or why it was not rated
+    // Walls of the fence-off seen this way, estimated on big solids; -1 = not rated.
+    double cost = -1;
+    bool refused = false;  // the solid can't be fenced this way
+    std::string note;      // where it comes from, or why it was not rated
 };
 
 struct DirectionOptions {
@@ -29,7 +30,10 @@ struct DirectionOptions {
     int from_facets = 2;            // normals of the largest planar faces to be added
     int from_edges = 2;             // commonest exact directions of sharp edges to be added
     int largest_entry = 7;          // of integer directions; a vector is taken to the nearest one
-    int sampled_lines = 3000;       // plan lines swept to rate one of the best; the others: a tenth
+    int sampled_lines = 100;        // plan lines swept to rate one direction
+    // Walls per triangle: the first axis with fewer ends the search; other directions than the axes
+    // are rated only when no axis has fewer.
+    double good = 2;
 };
 
 // The map for one primitive or scaled integer vector, unrated.
@@ -40,8 +44,8 @@ FenceDirection lay_on_z(const Vec3i& direction);
 // \throw std::invalid_argument for a zero or non-finite vector.
 Vec3i nearest_integer_direction(const Vec3d& vector, int largest_entry);
 
-// The axes and all candidates, best first. An oblique direction has to be a tenth cheaper than an
-// axis to stand before it. `owner` as in FenceInput.
+// The axes and all candidates, best first, those that were not rated last. An oblique direction has
+// to cost a third less than an axis to stand before it. `owner` as in FenceInput.
 // \throw InvalidSolid when no direction can be rated; Cancelled.
 std::vector<FenceDirection> fence_directions(const std::vector<Vec3i>& points,
                                              const std::vector<Triangle>& triangles,

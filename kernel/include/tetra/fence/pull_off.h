@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstdint>
+#include <limits>
 #include <vector>
 
 #include "tetra/progress.h"
@@ -59,22 +60,26 @@ struct PullOff {
     std::vector<ClosingPair> closings;
     std::vector<int> keep;  // straight crown vertices: must stay vertices of any subdivision
     int first_cup = 0;
+    // In mode crossings: projected_crossings() before and after; else -1.
+    std::int64_t crossings_before = -1, crossings_after = -1;
     PullStatistics statistics;
 };
 
 // Rules P1 to P10 of PULLOFF.md. `triangles` is a closed outward surface without flat triangles,
 // any genus and shells; `owners` one id >= 0 per triangle: triangles of different owners are
-// never joined. |coordinates| <= 2^30. All decisions are signs of grid points.
+// never joined. |coordinates| < 2^30. All decisions are signs of grid points.
 // Post: signed volumes of cups and remainder sum to the input's; the remainder is as valid as the
 // input. O((n + tries * degree^2) log n) in practice.
 PullOff pull_off(const std::vector<Vec3i>& points, const std::vector<Triangle>& triangles,
                  const std::vector<int>& owners, const PullOptions& options, Progress& progress);
 
 // Number of pairs of sharp edges whose projections along z cross properly (PULLOFF A1). Sharp:
-// not between two coplanar triangles of one owner; vertical edges don't count.
+// not between two coplanar triangles of one owner; vertical edges don't count. Counting ends when
+// there are `enough`.
 std::int64_t projected_crossings(const std::vector<Vec3i>& points,
                                  const std::vector<Triangle>& triangles,
-                                 const std::vector<int>& owners, Progress& progress);
+                                 const std::vector<int>& owners, Progress& progress,
+                                 std::int64_t enough = std::numeric_limits<std::int64_t>::max());
 
 // One id per triangle: two triangles have the same one when they are joined over edges of exactly
 // two coplanar, equally oriented triangles of one `face` (empty = all 0) and one `solid` (same).
