@@ -3,8 +3,11 @@
 #include "choose_plane.h"
 
 #include <algorithm>
+#include <bit>
+#include <cmath>
+#include <limits>
 #include <map>
-#include <set>
+#include <queue>
 
 namespace tetra::notch {
 namespace {
@@ -29,112 +32,150 @@ std::vector<Candidate> candidates_of(const std::vector<int>& planes_of_edges,
     return list;
 }
 
-constexpr std::size_t kBlock = 64, kChoiceBudget = 2'000'000;
+constexpr std::size_t kBlock = 64;
 
 // Ends of the notch edges of a piece, one array per coordinate and padded to whole blocks, so
-// that the compiler can use its vector units.
+// that the compiler can use its vector units; floats do for a choice. Padding is no number: it is
+// neither above nor below anything.
 struct EdgeEnds {
-    std::array<std::vector<double>, 6> at;
+    std::array<std::vector<float>, 6> at;
     std::size_t size = 0;
     void reserve(std::size_t n) {
-        for (std::vector<double>& a : at) a.assign((n + kBlock - 1) / kBlock * kBlock, 0);
+        for (std::vector<float>& a : at)
+            a.assign((n + kBlock - 1) / kBlock * kBlock, std::numeric_limits<float>::quiet_NaN());
     }
     void add(const Vec3d& u, const Vec3d& v) {
         for (int k = 0; k < 3; ++k) {
-            at[k][size] = u[k];
-            at[k + 3][size] = v[k];
+            at[k][size] = static_cast<float>(u[k]);
+            at[k + 3][size] = static_cast<float>(v[k]);
         }
         ++size;
     }
 };
 
-// How many edges a plane crosses, given up once that is `limit` or more. Padding is one point
-// twice, which no plane crosses.
-int count_crossed(const EdgeEnds& ends, const std::array<double, 4>& n, double reach, int limit) {
-    int crossed = 0;
-    for (std::size_t from = 0; from < ends.size && crossed < limit; from += kBlock) {
-        std::array<const double*, 6> p;
+// What floats may miss a plane by on a grid of 26 bits, in steps.
+constexpr float kFloatReach = 32;
+
+// Notch edges with a part above a plane, with a part below, and with both.
+struct Tally {
+    int above = 0, below = 0, crossed = 0;
+};
+
+Tally tally(const EdgeEnds& ends, const std::array<double, 4>& unit) {
+    std::array<float, 4> n;
+    for (int k = 0; k < 4; ++k) n[k] = static_cast<float>(unit[k]);
+    Tally t;
+    for (std::size_t from = 0; from < ends.size; from += kBlock) {
+        std::array<const float*, 6> p;
         for (int k = 0; k < 6; ++k) p[k] = ends.at[k].data() + from;
-        std::array<double, kBlock> u, v;
+        std::array<float, kBlock> u, v;
         for (std::size_t i = 0; i < kBlock; ++i) {
             u[i] = n[0] * p[0][i] + n[1] * p[1][i] + n[2] * p[2][i] + n[3];
             v[i] = n[0] * p[3][i] + n[1] * p[4][i] + n[2] * p[5][i] + n[3];
         }
-        for (std::size_t i = 0; i < kBlock; ++i)
-            crossed += static_cast<int>(u[i] > reach) & static_cast<int>(v[i] < -reach);
-        for (std::size_t i = 0; i < kBlock; ++i)
-            crossed += static_cast<int>(u[i] < -reach) & static_cast<int>(v[i] > reach);
+        for (std::size_t i = 0; i < kBlock; ++i) {
+            const int above =
+                static_cast<int>(u[i] > kFloatReach) | static_cast<int>(v[i] > kFloatReach);
+            const int below =
+                static_cast<int>(u[i] < -kFloatReach) | static_cast<int>(v[i] < -kFloatReach);
+            t.above += above;
+            t.below += below;
+            t.crossed += above & below;
+        }
     }
-    return crossed;
+    return t;
 }
 
-// The first of the candidates that cross fewest edges. Those whose known bound is no better than
-// the best so far are not counted; the piece keeps what was learnt.
-int fewest_crossed(const PointTable& points, const std::vector<Candidate>& list,
-                   const EdgeEnds& ends, double reach, Piece& piece, std::vector<int>& bound) {
-    bound.resize(static_cast<std::size_t>(points.planes()), 0);
-    for (const auto& [plane, least] : piece.crossed_at_least) bound[plane] = least;
-    piece.clear_planes.clear();
-    int best = -1, fewest = static_cast<int>(ends.size) + 1;
-    const auto count = [&](int plane) {
-        // Counting beyond what decides here pays off as a bound for the parts.
-        const int limit = std::max(fewest, 1) + static_cast<int>(ends.size / 8);
-        const int crossed = count_crossed(ends, points.unit_plane(plane), reach, limit);
-        bound[plane] = std::max(bound[plane], crossed);
-        if (crossed == 0) piece.clear_planes.push_back(plane);
-        if (crossed >= fewest) return;
-        best = plane;
-        fewest = crossed;
-    };
-    const Candidate* hopeful = &list.front();
-    for (const Candidate& c : list)
-        if (bound[c.plane] < bound[hopeful->plane]) hopeful = &c;
-    count(hopeful->plane);
-    // In a huge piece some hundred good candidates are as good as all.
-    std::size_t budget = kChoiceBudget / ends.size + 64;
-    for (const Candidate& c : list) {
-        if (&c == hopeful || bound[c.plane] >= std::max(fewest, 1)) continue;
-        if (budget-- == 0) break;
-        count(c.plane);
+// m log2 m with a logarithm that is linear between powers of two: the same on every machine.
+double entropy(int m) {
+    if (m < 2) return 0;
+    const int k = std::bit_width(static_cast<unsigned>(m)) - 1;
+    const double part = std::ldexp(static_cast<double>(m), -k);
+    return static_cast<double>(m) * (k + part - 1);
+}
+
+// Products of candidates and notch edges that are looked at for one choice.
+constexpr std::size_t kChoiceBudget = 200'000;
+
+// What a notch edge will be crossed by later on, in units of the mean share of notch edges that
+// planes of the piece cross, per bit of entropy of what a cut leaves on either side.
+constexpr double kLaterCrossings = 3;
+constexpr double kHalvesAreQuicker = 1e-6;
+
+// Pieces of more notch edges are cut through, not only where the plane carries a notch: they have
+// to become small before their planes cross each other.
+constexpr std::size_t kHugePiece = 1000;
+
+// The plane that crosses few notch edges now and, since small pieces are crossed by few planes,
+// leaves few on the larger side. One that crosses none is better than any that does.
+int best_plane(const PointTable& points, const std::vector<Candidate>& list, const EdgeEnds& ends) {
+    const std::size_t most = kChoiceBudget / ends.size + 64;
+    const std::size_t stride = (list.size() + most - 1) / most;
+    std::vector<Tally> tallies;
+    double crossed = 0;
+    for (std::size_t i = 0; i < list.size(); i += stride) {
+        tallies.push_back(tally(ends, points.unit_plane(list[i].plane)));
+        crossed += tallies.back().crossed;
     }
-    piece.crossed_at_least.clear();
-    for (const Candidate& c : list) piece.crossed_at_least.push_back({c.plane, bound[c.plane]});
-    for (const Candidate& c : list) bound[c.plane] = 0;
-    std::sort(piece.clear_planes.begin(), piece.clear_planes.end());
+    const double share =
+        crossed / (static_cast<double>(tallies.size()) * static_cast<double>(ends.size));
+    int best = -1;
+    bool clear = false;
+    double least = 0;
+    for (std::size_t i = 0; i < tallies.size(); ++i) {
+        const Tally& t = tallies[i];
+        if (clear && t.crossed > 0) continue;
+        // With nothing crossed anywhere halves are still quicker than slices.
+        const double later = kLaterCrossings * share + kHalvesAreQuicker;
+        const double cost = t.crossed + later * (entropy(t.above) + entropy(t.below));
+        if (best >= 0 && clear == (t.crossed == 0) && cost >= least) continue;
+        best = list[i * stride].plane;
+        clear = t.crossed == 0;
+        least = cost;
+    }
     return best;
 }
 
+// Of the planes open to it each step takes the one with most uncovered notches; ties by a
+// (seeded) rank of the plane.
 void cover(std::vector<Notch>& notches, std::uint64_t seed) {
     std::map<int, std::vector<int>> of_plane;
     for (int i = 0; i < static_cast<int>(notches.size()); ++i) {
         of_plane[notches[i].plane_a].push_back(i);
         of_plane[notches[i].plane_b].push_back(i);
     }
-    // Most uncovered notches first; ties by a (seeded) rank of the plane.
-    std::map<int, std::uint64_t> rank;
-    std::uint64_t state = seed;
-    for (const auto& [plane, list] : of_plane)
-        rank[plane] = seed ? next_random(state) : static_cast<std::uint64_t>(plane);
-    std::map<int, int> open;
-    std::set<std::tuple<int, std::uint64_t, int>> queue;
-    for (const auto& [plane, list] : of_plane) {
-        open[plane] = static_cast<int>(list.size());
-        queue.insert({-open[plane], rank[plane], plane});
-    }
-    const auto lower = [&](int plane) {
-        queue.erase({-open[plane], rank[plane], plane});
-        --open[plane];
-        queue.insert({-open[plane], rank[plane], plane});
+    struct Entry {
+        int open;
+        std::uint64_t rank;
+        int plane;
+        bool operator<(const Entry& b) const {  // the greatest comes first
+            return open != b.open ? open < b.open
+                                  : (rank != b.rank ? rank > b.rank : plane > b.plane);
+        }
     };
+    std::map<int, Entry> now;
+    std::priority_queue<Entry> queue;
+    std::uint64_t state = seed;
+    for (const auto& [plane, list] : of_plane) {
+        const auto rank = seed ? next_random(state) : static_cast<std::uint64_t>(plane);
+        now[plane] = {static_cast<int>(list.size()), rank, plane};
+        queue.push(now[plane]);
+    }
     while (!queue.empty()) {
-        const int plane = std::get<2>(*queue.begin());
-        if (open[plane] == 0) break;
-        for (const int i : of_plane[plane]) {
+        const Entry top = queue.top();
+        queue.pop();
+        Entry& entry = now[top.plane];
+        if (entry.open == 0) continue;
+        if (top.open != entry.open) {  // was filed before some of its notches were covered
+            queue.push(entry);
+            continue;
+        }
+        for (const int i : of_plane[top.plane]) {
             Notch& n = notches[i];
             if (n.assigned >= 0) continue;
-            n.assigned = plane;
-            lower(n.plane_a);
-            lower(n.plane_b);
+            n.assigned = top.plane;
+            --now[n.plane_a].open;
+            --now[n.plane_b].open;
         }
     }
 }
@@ -159,11 +200,13 @@ void assign_notches(std::vector<Notch>& notches, Rule rule, std::uint64_t seed) 
         n.assigned = rule == Rule::random && (next_random(state) & 1) ? n.plane_b : n.plane_a;
 }
 
-int choose_plane(PointTable& points, const HalfEdges& edges, Piece& piece,
-                 const std::vector<Notch>& notches, Rule rule, double reach,
-                 const std::vector<int>& excluded, std::uint64_t& state, Workspace& work) {
-    std::vector<int> carried;  // half-edges of notches
-    std::vector<int> planes;
+Choice choose_plane(const PointTable& points, const HalfEdges& edges, const Piece& piece,
+                    const std::vector<Notch>& notches, Rule rule, const std::vector<int>& excluded,
+                    std::uint64_t& state, Workspace& work) {
+    std::vector<int>& carried = work.notch_edges;
+    std::vector<int>& planes = work.planes;
+    carried.clear();
+    planes.clear();
     int lowest = -1;
     for (const int h : piece.edges) {
         const int n = edges[h].notch;
@@ -173,28 +216,15 @@ int choose_plane(PointTable& points, const HalfEdges& edges, Piece& piece,
         if (lowest < 0 || n < lowest) lowest = n;
     }
     work.plane_count.resize(static_cast<std::size_t>(points.planes()), 0);
-    piece.notch_edges = static_cast<int>(planes.size());
     const std::vector<Candidate> list = candidates_of(planes, excluded, work.plane_count);
-    if (list.empty()) return -1;
-    if (rule == Rule::random) return list[next_random(state) % list.size()].plane;
-    if (rule == Rule::plain && excluded.empty()) return notches[lowest].assigned;
-    for (const Candidate& c : list)
-        if (std::binary_search(piece.clear_planes.begin(), piece.clear_planes.end(), c.plane))
-            return c.plane;
+    if (list.empty()) return {};
+    if (list.size() == 1) return {list.front().plane, false};
+    if (rule == Rule::random) return {list[next_random(state) % list.size()].plane, false};
+    if (rule == Rule::plain && excluded.empty()) return {notches[lowest].assigned, false};
     EdgeEnds ends;
     ends.reserve(carried.size());
     for (const int h : carried) ends.add(points.approx(edges[h].org), points.approx(edges.dest(h)));
-    return fewest_crossed(points, list, ends, reach, piece, work.plane_bound);
-}
-
-void inherit_bounds(const Piece& parent, const HalfEdges& edges, int split, Piece& part) {
-    part.clear_planes = parent.clear_planes;
-    int here = 0;
-    for (const int h : part.edges) here += edges[h].notch >= 0 && h < edges[h].twin;
-    // Every edge that is not in the part as it was may have been crossed.
-    const int lost = parent.notch_edges - here + split;
-    for (const auto& [plane, least] : parent.crossed_at_least)
-        if (least > lost) part.crossed_at_least.push_back({plane, least - lost});
+    return {best_plane(points, list, ends), ends.size > kHugePiece};
 }
 
 }  // namespace tetra::notch

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-// Which plane cuts a piece: a cover of all notches by facet planes, fewest crossings first.
+// Which plane cuts a piece: a cover of all notches by facet planes, few crossings and halves first.
 #pragma once
 
 #include <cstdint>
@@ -14,17 +14,19 @@ enum class Rule { cover, plain, random };
 // takes each notch's first facet plane. `seed` != 0 breaks ties of the cover at random.
 void assign_notches(std::vector<Notch>& notches, Rule rule, std::uint64_t seed);
 
-// The assigned plane of a piece's notches that crosses fewest notches, of those the one that is
-// assigned most (NOTCHES 6.2), counted in doubles with ends within `reach` grid steps as on the
-// plane: a choice, not a decision. Fills piece.clear_planes when those it has are used up. -1 when
-// the piece has no notch or all its planes are in `excluded`. `plain` gives the lowest notch's
-// plane, `random` any.
-int choose_plane(PointTable& points, const HalfEdges& edges, Piece& piece,
-                 const std::vector<Notch>& notches, Rule rule, double reach,
-                 const std::vector<int>& excluded, std::uint64_t& state, Workspace& work);
+// Where to cut a piece; plane -1: nowhere.
+struct Choice {
+    int plane = -1;
+    bool whole = false;  // all of the plane's section, not only what carries a notch
+};
 
-// Gives a part what is known of the piece it came from; `split` notch edges were cut in two.
-void inherit_bounds(const Piece& parent, const HalfEdges& edges, int split, Piece& part);
+// A plane that notches of the piece are assigned to and that is not in `excluded`; one that
+// crosses few notches and halves what is left (docs/decisions/0004). Counted in floats: a choice,
+// not a decision. `plain` gives the lowest notch's plane, `random` any. O(notches of the piece), at
+// most kChoiceBudget products more.
+Choice choose_plane(const PointTable& points, const HalfEdges& edges, const Piece& piece,
+                    const std::vector<Notch>& notches, Rule rule, const std::vector<int>& excluded,
+                    std::uint64_t& state, Workspace& work);
 
 // A splitmix64 step.
 std::uint64_t next_random(std::uint64_t& state);

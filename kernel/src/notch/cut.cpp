@@ -36,7 +36,6 @@ class Surgeon {
           work_(work) {}
 
     std::vector<Piece> run() {
-        work_.notches_split = 0;
         cuts_.resize(section_.segments.size());
         split_crossings();
         insert_chords();
@@ -45,7 +44,8 @@ class Surgeon {
         pair_plane_edges();
         close_caps_of_no_width();
         clean();
-        return split_pieces(points_, edges_, piece_.edges, work_);
+        return split_pieces(points_, edges_, piece_.edges,
+                            piece_.simple && section_.simple && !made_holes_, work_);
     }
 
   private:
@@ -67,7 +67,6 @@ class Surgeon {
         for (Crossing& c : crossings_) {
             if (c.out >= 0) continue;
             const int h = c.half_edge, t = edges_[h].twin;
-            work_.notches_split += edges_[h].notch >= 0;
             const int h2 = edges_.split(h, c.point);
             const int t2 = edges_[h].twin;
             piece_.edges.push_back(h2);
@@ -246,12 +245,23 @@ class Surgeon {
         const std::size_t caps = touched.size();
         for (std::size_t i = 0; i < caps; ++i) {
             const int h = touched[i];
-            if (edges_.alive(h) && edges_[h].key == edges_[edges_[h].twin].key)
-                edges_.dissolve(h, touched);
+            if (!edges_.alive(h) || edges_[h].key != edges_[edges_[h].twin].key) continue;
+            made_holes_ = made_holes_ || leaves_a_hole(h);
+            edges_.dissolve(h, touched);
         }
         for (std::size_t i = 0; i < touched.size(); ++i)
             if (edges_.alive(touched[i])) edges_.straighten(touched[i]);
         std::erase_if(piece_.edges, [&](int h) { return !edges_.alive(h); });
+    }
+
+    // Dissolving an edge with one cycle on both sides parts it in two, one in the other, unless it
+    // is an antenna: where a cap meets a facet of its plane twice.
+    bool leaves_a_hole(int h) const {
+        const int t = edges_[h].twin;
+        if (edges_[h].next == t || edges_[t].next == h) return false;
+        for (int i = edges_[h].next; i != h; i = edges_[i].next)
+            if (i == t) return true;
+        return false;
     }
 
     PointTable& points_;
@@ -262,6 +272,7 @@ class Surgeon {
     std::vector<Cut> cuts_;
     std::vector<Crossing> crossings_;
     std::vector<Opening> openings_;
+    bool made_holes_ = false;
     std::vector<int> folded_, used_up_;  // half-edges paired across vanished caps; those caps
 };
 

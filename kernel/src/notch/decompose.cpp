@@ -24,13 +24,8 @@ class Run {
   public:
     Run(const GridSolid& solid, const CellsOptions& options, double delta, Decomposition& out,
         Progress& progress)
-        : solid_(solid),
-          options_(options),
-          reach_(delta > 0 ? 2 * delta : 1e-3),
-          out_(out),
-          state_(options.seed),
-          progress_(progress) {
-        work_.reach = reach_;
+        : solid_(solid), options_(options), out_(out), state_(options.seed), progress_(progress) {
+        work_.reach = delta > 0 ? 2 * delta : 1e-3;
     }
 
     void cut_all(std::uint64_t seed) {
@@ -65,15 +60,16 @@ class Run {
     void step(Piece&& piece, std::vector<Piece>& open) {
         std::vector<int> excluded, at_fault;
         for (;;) {
-            const int plane = choose_plane(out_.points, out_.edges, piece, notches_,
-                                           rule_of(options_.rule), reach_, excluded, state_, work_);
-            if (plane < 0) break;
+            const Choice choice = choose_plane(out_.points, out_.edges, piece, notches_,
+                                               rule_of(options_.rule), excluded, state_, work_);
+            if (choice.plane < 0) break;
             try {
-                cut(std::move(piece), trace(piece, plane), open);
+                const Section section = trace(piece, choice);
+                cut(std::move(piece), section, open);
                 return;
             } catch (const Inconsistent& e) {
                 // Another plane may split the trouble.
-                excluded.push_back(plane);
+                excluded.push_back(choice.plane);
                 if (at_fault.empty()) at_fault = e.planes;
                 if (excluded.size() >= kPlanesTried) break;
             }
@@ -100,7 +96,7 @@ class Run {
             if (std::find(excluded.begin(), excluded.end(), plane) != excluded.end()) continue;
             if (++tried > kPlanesTried) return false;
             try {
-                const Section section = trace(piece, plane);
+                const Section section = trace(piece, {plane, false});
                 cut(std::move(piece), section, open);
                 return true;
             } catch (const Inconsistent&) {
@@ -111,30 +107,23 @@ class Run {
     }
 
     void cut(Piece&& piece, const Section& section, std::vector<Piece>& open) {
-        Piece known;
-        known.clear_planes = std::move(piece.clear_planes);
-        known.crossed_at_least = std::move(piece.crossed_at_least);
-        known.notch_edges = piece.notch_edges;
         std::vector<Piece> parts =
             cut_piece(out_.points, out_.edges, std::move(piece), section, work_);
         ++out_.cuts;
         out_.splices += parts.size() == 1;
-        for (Piece& p : parts) {
-            inherit_bounds(known, out_.edges, work_.notches_split, p);
-            open.push_back(std::move(p));
-        }
+        for (Piece& p : parts) open.push_back(std::move(p));
     }
 
-    Section trace(Piece& piece, int plane) {
+    Section trace(Piece& piece, Choice choice) {
         Extent extent = Extent::notch_components;
-        if (options_.extent == CutExtent::whole_plane ||
+        if (choice.whole || options_.extent == CutExtent::whole_plane ||
             (options_.extent == CutExtent::random && (next_random(state_) & 1)))
             extent = Extent::whole_plane;
         else if (options_.rule == NotchRule::plain)
             extent = Extent::own_notches;
         std::vector<char> own;
         if (extent == Extent::own_notches) own = lowest_notch(piece);
-        return trace_section(out_.points, out_.edges, piece, plane, extent, own, work_);
+        return trace_section(out_.points, out_.edges, piece, choice.plane, extent, own, work_);
     }
 
     std::vector<char> lowest_notch(const Piece& piece) const {
@@ -174,7 +163,6 @@ class Run {
 
     const GridSolid& solid_;
     const CellsOptions& options_;
-    double reach_;
     Decomposition& out_;
     std::uint64_t state_;
     Progress& progress_;

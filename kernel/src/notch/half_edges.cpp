@@ -73,6 +73,8 @@ bool HalfEdges::straighten(int h) {
     link(before, pool_[h].next);
     link(t, pool_[after_t].next);
     pair(before, t);
+    // Both sides must meet a plane in one point, also where planes and input edge differ a little.
+    pool_[t].line = pool_[before].line;
     remove(h);
     remove(after_t);
     return true;

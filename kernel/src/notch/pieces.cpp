@@ -34,7 +34,8 @@ struct Cycle {
 struct Surface {
     double volume = 0, area = 0;
     Box box;
-    bool maybe_cavity = false;
+    bool has_holes = false;
+    std::size_t begin = 0;
 };
 
 class Splitter {
@@ -43,13 +44,9 @@ class Splitter {
              Workspace& work)
         : points_(points), edges_(edges), all_(all), work_(work) {}
 
-    std::vector<Piece> run() {
+    std::vector<Piece> run(bool simple) {
         flood();
-        if (surfaces_.size() == 1) {
-            std::vector<Piece> one(1);
-            one[0].edges = order_;
-            return one;
-        }
+        if (simple || surfaces_.size() == 1) return one_each(simple);
         measure();
         parent_.resize(surfaces_.size());
         std::iota(parent_.begin(), parent_.end(), 0);
@@ -65,6 +62,21 @@ class Splitter {
         work_.label[h] = surface;
     }
 
+    std::vector<Piece> one_each(bool simple) const {
+        std::vector<Piece> pieces(surfaces_.size());
+        for (std::size_t i = 0; i < pieces.size(); ++i) {
+            const auto from = order_.begin() + static_cast<std::ptrdiff_t>(surfaces_[i].begin);
+            const auto to =
+                i + 1 < pieces.size()
+                    ? order_.begin() + static_cast<std::ptrdiff_t>(surfaces_[i + 1].begin)
+                    : order_.end();
+            pieces[i].edges.assign(from, to);
+            pieces[i].simple = simple;
+        }
+        return pieces;
+    }
+
+    // Surfaces lie one after the other in order_.
     void flood() {
         const auto size = static_cast<std::size_t>(edges_.size());
         if (work_.label.size() < size) {
@@ -78,7 +90,7 @@ class Splitter {
             if (labelled(seed)) continue;
             const int s = static_cast<int>(surfaces_.size());
             surfaces_.emplace_back();
-            std::size_t head = order_.size();
+            std::size_t head = surfaces_.back().begin = order_.size();
             set_label(seed, s);
             order_.push_back(seed);
             for (; head < order_.size(); ++head) {
@@ -134,7 +146,10 @@ class Splitter {
     void join_holes() {
         std::vector<int> holes;
         for (int c = 0; c < static_cast<int>(cycles_.size()); ++c)
-            if (cycles_[c].area <= slack(cycles_[c].box)) holes.push_back(c);
+            if (cycles_[c].area <= slack(cycles_[c].box)) {
+                holes.push_back(c);
+                surfaces_[cycles_[c].surface].has_holes = true;
+            }
         if (holes.empty()) return;
         std::stable_sort(holes.begin(), holes.end(),
                          [&](int a, int b) { return cycles_[a].key < cycles_[b].key; });
@@ -177,6 +192,11 @@ class Splitter {
             }
             pieces[n].edges.push_back(h);
         }
+        std::vector<int> surfaces(pieces.size(), 0);
+        for (std::size_t i = 0; i < surfaces_.size(); ++i) {
+            const int n = number[find(static_cast<int>(i))];
+            pieces[n].simple = ++surfaces[n] == 1 && !surfaces_[i].has_holes;
+        }
         return pieces;
     }
 
@@ -192,8 +212,8 @@ class Splitter {
 }  // namespace
 
 std::vector<Piece> split_pieces(const PointTable& points, const HalfEdges& edges,
-                                const std::vector<int>& all, Workspace& work) {
-    return Splitter(points, edges, all, work).run();
+                                const std::vector<int>& all, bool simple, Workspace& work) {
+    return Splitter(points, edges, all, work).run(simple);
 }
 
 }  // namespace tetra::notch

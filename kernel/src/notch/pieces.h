@@ -9,7 +9,9 @@ namespace tetra::notch {
 // Surfaces that share no edge belong together when one may be a hole or a cavity in the other.
 // That is decided on bounding boxes, generously: a piece may hold several solids, but a solid is
 // never torn apart. A surface without notches that encloses volume is a piece of its own.
+// `simple` tells that a simple piece was cut along a simple section: neither holes nor cavities
+// come of that, and nothing is measured.
 std::vector<Piece> split_pieces(const PointTable& points, const HalfEdges& edges,
-                                const std::vector<int>& all, Workspace& work);
+                                const std::vector<int>& all, bool simple, Workspace& work);
 
 }  // namespace tetra::notch

@@ -6,13 +6,12 @@
 #include <cmath>
 #include <map>
 #include <numeric>
+#include <optional>
 
-#include "tetra/solid/box_tree.h"
+#include "plane_index.h"
 
 namespace tetra::notch {
 namespace {
-
-using Unit = std::array<double, 4>;
 
 // Triangles of one exact plane, of either orientation.
 struct Group {
@@ -105,10 +104,14 @@ class Classifier {
                          [&](int a, int b) { return groups_[a].area > groups_[b].area; });
         taken_.assign(groups_.size(), 0);
         rank_.resize(order.size());
-        std::vector<Triangle> first;  // a triangle stands for its group
         for (std::size_t i = 0; i < order.size(); ++i) rank_[order[i]] = static_cast<int>(i);
-        for (const Group& g : groups_) first.push_back(solid_.triangles[g.triangles.front()]);
-        tree_ = build_box_tree(solid_.points, first);
+        std::vector<Triangle> first;  // a triangle stands for its group
+        std::vector<Unit> units;
+        for (const Group& g : groups_) {
+            first.push_back(solid_.triangles[g.triangles.front()]);
+            units.push_back(g.unit);
+        }
+        index_.emplace(solid_.points, first, units, delta_);
         for (const int seed : order) {
             if (taken_[seed] || is_demoted(groups_[seed])) continue;
             grow(seed);
@@ -116,8 +119,7 @@ class Classifier {
     }
 
     void grow(int seed) {
-        Unit unit = groups_[seed].unit;
-        std::vector<int> members = members_near(unit, seed);
+        std::vector<int> members = members_near(groups_[seed].unit, seed);
         if (members.size() == 1) return;
         int key = 2 * groups_[seed].plane;
         for (int round = 0; round < 4; ++round) {
@@ -131,7 +133,7 @@ class Classifier {
             members = wider;
             if (same) break;
         }
-        unit = points_.unit_plane(key >> 1);
+        const Unit unit = points_.unit_plane(key >> 1);
         for (const int m : members) {
             taken_[m] = 1;
             assign(groups_[m], key >> 1, unit);
@@ -140,36 +142,15 @@ class Classifier {
 
     // Groups with all vertices within delta of the plane, largest first; none without the seed.
     std::vector<int> members_near(const Unit& unit, int seed) const {
-        std::vector<int> members, stack{0};
-        while (!stack.empty()) {
-            const BoxTree::Node& node = tree_.nodes[static_cast<std::size_t>(stack.back())];
-            stack.pop_back();
-            if (!meets_slab(node.box, unit)) continue;
-            if (node.left >= 0) {
-                stack.insert(stack.end(), {node.left, node.left + 1});
-                continue;
-            }
-            for (int i = node.begin; i < node.end; ++i) {
-                const int g = tree_.order[static_cast<std::size_t>(i)];
-                if (!taken_[g] && !is_demoted(groups_[g]) && is_near(groups_[g], unit))
-                    members.push_back(g);
-            }
-        }
+        std::vector<int> members;
+        index_->for_near(unit, [&](int g) {
+            if (!taken_[g] && !is_demoted(groups_[g]) && is_near(groups_[g], unit))
+                members.push_back(g);
+        });
         std::sort(members.begin(), members.end(),
                   [&](int a, int b) { return rank_[a] < rank_[b]; });
         if (std::find(members.begin(), members.end(), seed) == members.end()) members.clear();
         return members;
-    }
-
-    bool meets_slab(const Box& box, const Unit& unit) const {
-        double centre = unit[3], reach = delta_;
-        for (int k = 0; k < 3; ++k) {
-            const auto low = static_cast<double>(box.low[k]),
-                       high = static_cast<double>(box.high[k]);
-            centre += unit[k] * (low + high) / 2;
-            reach += std::fabs(unit[k]) * (high - low) / 2;
-        }
-        return std::fabs(centre) <= reach;
     }
 
     bool is_near(const Group& group, const Unit& unit) const {
@@ -223,7 +204,7 @@ class Classifier {
     PlaneClasses result_;
     std::vector<Group> groups_;
     std::vector<int> rank_;  // of a group by area
-    BoxTree tree_;
+    std::optional<PlaneIndex> index_;
     std::vector<char> taken_;
 };
 

@@ -340,9 +340,13 @@ class Tracer {
             if (a.leaving != b.leaving) return a.leaving < b.leaving;
             return a.segment < b.segment;
         });
+        section_.simple = true;
         for (std::size_t i = 0, j; i < rays_.size(); i = j) {
             for (j = i; j < rays_.size() && rays_[j].point == rays_[i].point;) ++j;
-            if (j - i > 2) sort_by_angle(i, j);
+            if (j - i > 2) {
+                sort_by_angle(i, j);
+                section_.simple = false;
+            }
             pair_sectors(i, j);
         }
     }

@@ -13,11 +13,8 @@ namespace tetra::notch {
 // A set of half-edges that bounds one or more solids, closed under twin and next.
 struct Piece {
     std::vector<int> edges;
-    // Planes known to cross no notch of the piece, and so of no part of it; sorted.
-    std::vector<int> clear_planes;
-    // Least numbers of notch edges that planes cross, where known, and the edges there were.
-    std::vector<std::pair<int, int>> crossed_at_least;
-    int notch_edges = 0;
+    // Known to be one surface none of whose facets has a hole.
+    bool simple = false;
 };
 
 // Incidence and arithmetic contradict each other (plane classes only, NOTCHES 4). Found before
@@ -53,6 +50,9 @@ struct Section {
     int plane = -1;
     std::vector<Segment> segments;
     std::vector<char> used;  // per segment: bounds a component that is to be cut
+    // Components are discs whose boundary stays on one surface: no hole, no edge across, some
+    // width, and no point where the boundary passes twice.
+    bool simple = false;
 };
 
 // Which components of the section are cut.
@@ -63,12 +63,11 @@ struct Workspace {
     double reach = 16;  // grid steps by which vertices may miss their planes
     std::vector<int> side_stamp;
     std::vector<signed char> side;
-    std::vector<int> slot_stamp, slot;    // per key
-    std::vector<int> label_stamp, label;  // per half-edge: the surface it is on
-    std::vector<int> cycle_stamp;         // per half-edge
-    std::vector<int> plane_count;         // zero between uses
-    std::vector<int> plane_bound;         // zero between uses
-    int notches_split = 0;                // by the last cut
+    std::vector<int> slot_stamp, slot;     // per key
+    std::vector<int> label_stamp, label;   // per half-edge: the surface it is on
+    std::vector<int> cycle_stamp;          // per half-edge
+    std::vector<int> plane_count;          // zero between uses
+    std::vector<int> notch_edges, planes;  // of the piece at hand
     int stamp = 0;
 };
 

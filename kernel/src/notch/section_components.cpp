@@ -2,6 +2,7 @@
 // Nesting of the cycles of a section by exact signs at the lexicographically least vertex.
 #include "section_components.h"
 
+#include <algorithm>
 #include <numeric>
 
 namespace tetra::notch {
@@ -17,10 +18,16 @@ class Selector {
         find_cycles_of_no_width();
         parent_.resize(first_.size());
         std::iota(parent_.begin(), parent_.end(), 0);
-        if (first_.size() > 1 && extent != Extent::whole_plane) {
-            for (const Segment& s : section_.segments)
-                if (s.mate >= 0) unite(s.cycle, section_.segments[s.mate].cycle);
-            attach_holes();
+        section_.simple &= std::none_of(section_.segments.begin(), section_.segments.end(),
+                                        [](const Segment& s) { return s.no_width || s.mate >= 0; });
+        if (first_.size() > 1) {
+            find_holes();
+            section_.simple &= holes_.empty();
+            if (extent != Extent::whole_plane) {
+                for (const Segment& s : section_.segments)
+                    if (s.mate >= 0) unite(s.cycle, section_.segments[s.mate].cycle);
+                attach_holes();
+            }
         }
         mark_used(extent, own);
     }
@@ -119,20 +126,22 @@ class Selector {
         return points_.orient(g.from.point, g.to.point, point, frame_.axis);
     }
 
-    void attach_holes() {
-        std::vector<int> holes, outers, least(first_.size());
+    void find_holes() {
+        least_.resize(first_.size());
         for (int c = 0; c < static_cast<int>(first_.size()); ++c)
-            (is_hole(c, least[c]) ? holes : outers).push_back(c);
-        if (holes.empty()) return;
+            (is_hole(c, least_[c]) ? holes_ : outers_).push_back(c);
+    }
+
+    void attach_holes() {
         // Outer cycles around a point are nested: the innermost has the most others around it.
         std::vector<int> depth(first_.size(), -1);
-        for (const int hole : holes) {
+        for (const int hole : holes_) {
             int best = -1;
-            for (const int outer : outers) {
-                if (!inside(least[hole], outer)) continue;
+            for (const int outer : outers_) {
+                if (!inside(least_[hole], outer)) continue;
                 if (best >= 0) {
                     for (const int c : {best, outer})
-                        if (depth[c] < 0) depth[c] = nesting_depth(c, least[c], outers);
+                        if (depth[c] < 0) depth[c] = nesting_depth(c, least_[c]);
                     if (depth[outer] <= depth[best]) continue;
                 }
                 best = outer;
@@ -142,9 +151,9 @@ class Selector {
         }
     }
 
-    int nesting_depth(int cycle, int least, const std::vector<int>& outers) {
+    int nesting_depth(int cycle, int least) {
         int depth = 0;
-        for (const int outer : outers)
+        for (const int outer : outers_)
             if (outer != cycle && inside(least, outer)) ++depth;
         return depth;
     }
@@ -172,6 +181,7 @@ class Selector {
     const Frame& frame_;
     Section& section_;
     std::vector<int> first_, parent_;
+    std::vector<int> holes_, outers_, least_;  // cycles, and the least vertex of each
 };
 
 int sign_of_product_difference(Int128 a, Int128 b, Int128 c, Int128 d) {
