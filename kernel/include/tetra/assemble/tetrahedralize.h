@@ -17,10 +17,15 @@
 
 namespace tetra {
 
+// chazelle_palios: pull-off and fences; bajaj_dey: the convex cells of notch cutting, overlaid.
+enum class TetMethod { chazelle_palios, bajaj_dey };
+
 // automatic: PULLOFF A1, the state with fewest crossings; on: the paper's; off: none.
 enum class PullPolicy { automatic, on, off };
 
+// `direction`, `candidates` and `pull_off` are of chazelle_palios only.
 struct TetOptions {
+    TetMethod method = TetMethod::chazelle_palios;
     std::optional<Vec3d> direction;  // of the fences; none = rate the axes and the candidates
     std::vector<Vec3d> candidates;   // e.g. normals of planar faces, axes of cylinders
     PullPolicy pull_off = PullPolicy::automatic;
@@ -45,6 +50,17 @@ struct DirectionTrial {
     std::string note;
 };
 
+// What notch cutting and the overlay of its cells did.
+struct CellTetCounts {
+    int notches = 0;
+    int planes = 0;     // that cover the notches
+    int cuts = 0;
+    int raw_cells = 0;  // before merging
+    int cells = 0;
+    int pieces = 0;      // common parts of two facets, one from each side of a plane
+    int cone_cells = 0;  // cells that needed a point of their own
+};
+
 // What was done with one solid, and with how much luck.
 struct SolidReport {
     int solid = 0;
@@ -56,6 +72,7 @@ struct SolidReport {
     PullStatistics pull;
     int cup_tets = 0;  // before the fences divide their domes
     FenceCounts fences;
+    CellTetCounts cells;  // of bajaj_dey
     CompactStats compact;
     RestoreStats restore;
     MeshCheck check;
