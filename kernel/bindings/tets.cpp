@@ -2,6 +2,8 @@
 // tetrahedralize(): conforming tetrahedra of a valid surface, as a dict.
 #include "tetra/assemble/tetrahedralize.h"
 
+#include <algorithm>
+
 #include "convert.h"
 
 namespace tetra::python {
@@ -220,11 +222,16 @@ nb::dict to_report(const TetResult& r, TetMethod method) {
     counts["steiner_before_compaction"] = total.raw_steiner;
     counts["pulled_vertices"] = total.pulled;
     counts["shared_points"] = r.report.shared_points;
+    counts["contact_triangles"] =
+        (r.skin_twin.size() - static_cast<std::size_t>(std::count(
+                                  r.skin_twin.begin(), r.skin_twin.end(), -1))) /
+        2;
     for (const auto& [stage, time] : r.report.seconds) seconds[stage.c_str()] = time;
     repairs["vertices_on_grid"] = total.vertices_on_grid;
     repairs["steiner_off_plane"] = total.off_plane;
     repairs["unblocking_flips"] = total.unblocked;
     repairs["peeled"] = total.peeled;
+    repairs["contact_rounds"] = r.report.contact_rounds;
     repairs["merged_points"] = r.report.snap.merged_points;
     repairs["flipped_edges"] = r.report.snap.flipped_edges;
     nb::list solids;
@@ -262,6 +269,7 @@ nb::dict tetrahedralize_arrays(const VertexArray& vertices, const TriangleArray&
     result["tet_solid"] = to_numpy(std::move(r.tet_solid));
     result["skin"] = rows_to_numpy(r.skin);
     result["skin_source"] = to_numpy(std::move(r.skin_source));
+    result["skin_twin"] = to_numpy(std::move(r.skin_twin));
     result["skin_face"] = to_numpy(std::move(face));
     return result;
 }
@@ -281,7 +289,8 @@ candidates, `pull_off` ("auto", "on", "off"), `compact` ("default", "max", "off"
 vertices apart), `face_ids` i32 (m,), `quality` (False).
 Returns a dict: `points` f64 (p, 3), `point_source` i32 (p,) vertex or -1, `tets` i32 (t, 4) of
 positive orientation, `tet_solid` i32 (t,), `skin` i32 (s, 3) outward, `skin_source` i32 (s,) a
-triangle of the same plane and face, `skin_face` i32 (s,), and `report`, a dict.
+triangle of the same plane and face, `skin_face` i32 (s,), `skin_twin` i32 (s,) the skin triangle
+of the solid in contact or -1, and `report`, a dict.
 Raises InvalidSolid, VerificationFailed, Cancelled, ValueError for unknown options.)");
 }
 

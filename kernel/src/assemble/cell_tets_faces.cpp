@@ -4,57 +4,13 @@
 #include <set>
 
 #include "cell_tets_stages.h"
+#include "plane_regions.h"
 #include "tetra/errors.h"
-#include "tetra/polygon/triangulate.h"
 
 namespace tetra::cells {
 namespace {
 
-using Edges = std::vector<DirectedEdge>;
-
-// A plane seen from outside: along the axis in which its normal is longest.
-class PlaneView final : public PointOracle {
-  public:
-    PlaneView(const PointTable& points, int key) : points_(points) {
-        const std::array<double, 4>& n = points.unit_plane(plane_of(key));
-        for (int k = 1; k < 3; ++k)
-            if (std::fabs(n[k]) > std::fabs(n[axis_])) axis_ = k;
-        flip_ = n[axis_] * key_sign(key) < 0 ? -1 : 1;
-    }
-    int compare(PointId i, PointId j) const override {
-        const int first = points_.compare(i, j, (axis_ + 1) % 3);
-        return first != 0 ? flip_ * first : points_.compare(i, j, (axis_ + 2) % 3);
-    }
-    int orient(PointId i, PointId j, PointId k) const override {
-        return flip_ * points_.orient(i, j, k, axis_);
-    }
-
-  private:
-    const PointTable& points_;
-    int axis_ = 0, flip_ = 1;
-};
-
 std::pair<int, int> undirected(int a, int b) { return {std::min(a, b), std::max(a, b)}; }
-
-// Triangles of a convex polygon with points on its sides: a fan from the first corner (by id)
-// that sees no two of them in a row, so that cells can be cones from the same corner.
-bool fan(const std::vector<int>& loop, const PlaneView& view, std::vector<PlanarTriangle>& out) {
-    const std::size_t n = loop.size();
-    const auto at = [&](std::size_t i) { return loop[i % n]; };
-    int best = -1;
-    for (std::size_t i = 0; i < n; ++i) {
-        if (best >= 0 && at(i) > loop[best]) continue;
-        if (view.orient(at(i), at(i + 1), at(i + 2)) > 0 &&
-            view.orient(at(i + n - 2), at(i + n - 1), at(i)) > 0 &&
-            view.orient(at(i + n - 1), at(i), at(i + 1)) > 0)
-            best = static_cast<int>(i);
-    }
-    if (best < 0) return false;
-    const auto first = static_cast<std::size_t>(best);
-    for (std::size_t i = 1; i + 1 < n; ++i)
-        out.push_back({at(first), at(first + i), at(first + i + 1)});
-    return true;
-}
 
 class FaceMaker {
   public:
@@ -123,25 +79,6 @@ class FaceMaker {
             });
     }
 
-    std::vector<PlanarTriangle> triangulated(const Edges& edges, const PlaneView& view,
-                                             const std::vector<PointId>& inner) {
-        try {
-            return triangulate_region(edges, view, inner);
-        } catch (const InvalidRegion& e) {
-            throw VerificationFailed(std::string("tetrahedra of cells: the overlay of a plane "
-                                                 "bounds no region: ") +
-                                     e.what());
-        }
-    }
-
-    std::vector<PlanarTriangle> convex(const Edges& loop, const PlaneView& view) {
-        std::vector<int> corners;
-        for (const DirectedEdge& e : loop) corners.push_back(e.from);
-        std::vector<PlanarTriangle> triangles;
-        if (!fan(corners, view, triangles)) triangles = triangulated(loop, view, {});
-        return triangles;
-    }
-
     void add_piece(std::size_t p) {
         const Piece& piece = pieces_[p];
         const int key = c_.facets[piece.front].key;
@@ -157,7 +94,7 @@ class FaceMaker {
         }
         const bool plain = edges.size() == border && inner.empty();
         for (const PlanarTriangle& t :
-             plain ? convex(edges, view) : triangulated(edges, view, inner)) {
+             plain ? triangles_of_convex(edges, view) : triangles_of_region(edges, view, inner)) {
             add({t[0], t[1], t[2]}, piece.front, both);
             add({t[0], t[2], t[1]}, piece.back, both);
         }
@@ -184,7 +121,7 @@ class FaceMaker {
         std::erase_if(inner, [&](PointId p) { return is_covered(p, covering); });
         const bool plain = covering.empty() && edges.size() == border && inner.empty();
         for (const PlanarTriangle& t :
-             plain ? convex(edges, view) : triangulated(edges, view, inner))
+             plain ? triangles_of_convex(edges, view) : triangles_of_region(edges, view, inner))
             add({t[0], t[1], t[2]}, f, true);
     }
 
@@ -205,22 +142,6 @@ class FaceMaker {
                                   [&](int u, int v) { taken.insert(undirected(u, v)); });
         }
         return without_opposites(std::move(edges));
-    }
-
-    static Edges without_opposites(Edges edges) {
-        std::sort(edges.begin(), edges.end(), [](const DirectedEdge& a, const DirectedEdge& b) {
-            return undirected(a.from, a.to) < undirected(b.from, b.to);
-        });
-        Edges left;
-        for (std::size_t i = 0, j = 0; i < edges.size(); i = j) {
-            const auto edge = undirected(edges[i].from, edges[i].to);
-            int net = 0;
-            for (; j < edges.size() && undirected(edges[j].from, edges[j].to) == edge; ++j)
-                net += edges[j].from == edge.first ? 1 : -1;
-            if (net > 0) left.push_back({edge.first, edge.second});
-            if (net < 0) left.push_back({edge.second, edge.first});
-        }
-        return left;
     }
 
     bool is_covered(int point, const std::vector<int>& covering) {

@@ -40,6 +40,7 @@ class Overlay {
 
   private:
     bool is_front(int facet) const { return key_sign(c_.facets[facet].key) > 0; }
+    int solid_of(int facet) const { return c_.cell_solid[c_.facets[facet].cell]; }
 
     void overlay_plane(const std::vector<int>& facets) {
         const auto fronts = std::count_if(facets.begin(), facets.end(),
@@ -51,6 +52,7 @@ class Overlay {
         for_touching_boxes(boxes.build(), [&](int i, int j) {
             int front = facets[i], back = facets[j];
             if (is_front(front) == is_front(back)) return;
+            if (c_.between_solids_only && solid_of(front) == solid_of(back)) return;
             if (!is_front(front)) std::swap(front, back);
             pairs.emplace_back(front, back);
         });

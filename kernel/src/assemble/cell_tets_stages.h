@@ -38,6 +38,7 @@ struct Complex {
     std::vector<int> first_facet{0};  // per cell, and the end
     std::vector<int> cell_solid;
     std::vector<std::vector<int>> on_plane;  // facets per plane
+    bool between_solids_only = false;        // overlay no two facets of one solid
 };
 
 Complex make_complex(const GridSolid& solid, const std::vector<Polyhedra>& cells,

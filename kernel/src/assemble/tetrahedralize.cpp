@@ -7,6 +7,7 @@
 #include <numeric>
 
 #include "tetra/solid/validate.h"
+#include "tetrahedralize_contacts.h"
 #include "tetrahedralize_solid.h"
 
 namespace tetra {
@@ -118,23 +119,80 @@ class Joiner {
     TetResult result_;
 };
 
-TetResult on_one_grid(const TetInput& input, const TetOptions& options, GridChoice choice,
+// Skin triangles of contacts that have no twin.
+int unmatched(const TetResult& result, const Imprint& imprint) {
+    int count = 0;
+    for (std::size_t s = 0; s < result.skin.size(); ++s)
+        count += imprint.contact[index(result.skin_source[s])] >= 0 && result.skin_twin[s] < 0;
+    return count;
+}
+
+// What is meshed: the imprinted surface, whose contacts get more points as meshes need them.
+struct Work {
+    Imprint imprint;
+    TetInput surface;
+    int round = 0;
+
+    void prepare() {
+        surface = imprint.any() ? with_contact_faces(imprint) : std::move(imprint.surface);
+    }
+};
+
+TetResult mesh_solids(const TetInput& input, const GridSolid& grid, const Imprint& imprint,
+                      const TetOptions& options, std::vector<ContactPoint>& contact_points,
                       StageClock& clock, Progress& progress) {
-    std::vector<int> solids = choice.solid.solid;
+    std::vector<int> solids = grid.solid;
     std::sort(solids.begin(), solids.end());
     solids.erase(std::unique(solids.begin(), solids.end()), solids.end());
     Joiner joiner(solids.size() > 1);
     for (const int solid : solids) {
-        const GridSolid part = part_of(choice.solid, solid);
+        const GridSolid part = part_of(grid, solid);
         std::vector<int> faces;
         if (!input.face.empty())
             for (const int t : part.triangle_source) faces.push_back(input.face[index(t)]);
-        joiner.add(tetrahedralize_solid({input, part, faces, solid}, options, clock, progress),
-                   part);
+        SolidTets tets =
+            tetrahedralize_solid({input, part, faces, solid}, options, clock, progress);
+        find_contact_points(tets, part, imprint, contact_points);
+        joiner.add(std::move(tets), part);
     }
     TetResult result = joiner.take();
+    result.skin_twin = solids.size() > 1 ? skin_twins(result.skin)
+                                         : std::vector<int>(result.skin.size(), -1);
+    return result;
+}
+
+// Back to the caller's triangles and vertices.
+void name_by_caller(const TetInput& input, const Imprint& imprint, TetResult& result) {
+    for (int& t : result.skin_source) t = imprint.source[index(t)];
+    for (int& v : result.point_source)
+        if (v >= static_cast<int>(input.vertices.size())) v = -1;
+}
+
+constexpr int kContactRounds = 8;
+
+// All solids on one grid, or nothing when a solid needs more points on its contacts: these are then
+// vertices of both sides for the next round.
+std::optional<TetResult> mesh_round(const TetInput& input, const TetOptions& options,
+                                    GridChoice&& choice, Work& work, StageClock& clock,
+                                    Progress& progress) {
+    std::vector<ContactPoint> points;
+    TetResult result = mesh_solids(work.surface, choice.solid, work.imprint, options, points, clock,
+                                   progress);
+    const int open = unmatched(result, work.imprint);
+    if (open > 0) {
+        if (points.empty() || work.round == kContactRounds)
+            throw VerificationFailed("solids in contact have different triangles on " +
+                                     std::to_string(open) + " places of their common faces");
+        add_contact_points(std::move(points), work.imprint);
+        work.prepare();
+        ++work.round;
+        return std::nullopt;
+    }
+    name_by_caller(input, work.imprint, result);
     result.report.snap = choice.report;
-    result.report.rejected_grids = choice.rejected;
+    result.report.snap.merged_points += work.imprint.merged_points;
+    result.report.rejected_grids = std::move(choice.rejected);
+    result.report.contact_rounds = work.round;
     return result;
 }
 
@@ -146,11 +204,17 @@ TetResult tetrahedralize(const TetInput& input, const TetOptions& options, Progr
     std::vector<std::string> failures;
     const int lowest = options.grid_bits ? options.grid_bits : kCoarsestBits;
     const int highest = options.grid_bits ? options.grid_bits : kFinestBits;
+    Work work;
+    {
+        const StageClock::Scope scope(clock, "contacts");
+        work.imprint = imprint_contacts(input, progress);
+        work.prepare();
+    }
     for (int bits = lowest;;) {
         GridChoice choice;
         try {
             const StageClock::Scope scope(clock, "snap");
-            choice = snapped(input, bits, highest, progress);
+            choice = snapped(work.surface, bits, highest, progress);
         } catch (const InvalidSolid&) {
             // A finer grid that is worse is no reason to call the solid invalid.
             if (failures.empty()) throw;
@@ -163,12 +227,14 @@ TetResult tetrahedralize(const TetInput& input, const TetOptions& options, Progr
             bits = used + 2;
         };
         try {
-            TetResult result = on_one_grid(input, options, std::move(choice), clock, progress);
-            for (SolidReport& solid : result.report.solids)
+            std::optional<TetResult> result =
+                mesh_round(input, options, std::move(choice), work, clock, progress);
+            if (!result) continue;
+            for (SolidReport& solid : result->report.solids)
                 solid.repairs.insert(solid.repairs.begin(), failures.begin(), failures.end());
-            result.report.seconds = clock.seconds;
-            result.report.quality = tet_quality(result.points, result.tets);
-            return result;
+            result->report.seconds = clock.seconds;
+            result->report.quality = tet_quality(result->points, result->tets);
+            return std::move(*result);
         } catch (const VerificationFailed& e) {
             give_up_or_refine(e.what());
         } catch (const InvalidSolid& e) {

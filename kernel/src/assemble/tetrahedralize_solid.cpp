@@ -7,6 +7,7 @@
 
 #include "cell_tets.h"
 #include "tetra/assemble/emit_cups.h"
+#include "tetra/solid/conform_contacts.h"
 
 namespace tetra {
 namespace {
@@ -176,6 +177,16 @@ class SolidWorker {
         return result;
     }
 
+    // As for cells: common vertices on both sides of every contact help where facets of one solid
+    // touch.
+    Polyhedra cut_cells(const CellsOptions& options, CellsStats& stats) const {
+        try {
+            return exact_cells(input_.grid, options, stats, progress_);
+        } catch (const VerificationFailed&) {
+            return exact_cells(conform_contacts(input_.grid), options, stats, progress_);
+        }
+    }
+
     // Cells by another choice among equally good planes each time.
     const ExactMesh& mesh_of_cells(std::size_t choice) {
         if (cells_mesh_ && cells_choice_ == choice) return *cells_mesh_;
@@ -185,7 +196,7 @@ class SolidWorker {
             const StageClock::Scope scope(clock_, "notch_cutting");
             CellsOptions cut;
             cut.seed = choice;
-            cells = exact_cells(input_.grid, cut, stats, progress_);
+            cells = cut_cells(cut, stats);
         }
         const StageClock::Scope scope(clock_, "overlay");
         CellTetCounts counts{stats.notches, stats.planes, stats.cuts, stats.raw_cells, 0, 0, 0};

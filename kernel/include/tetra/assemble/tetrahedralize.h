@@ -85,7 +85,8 @@ struct TetReport {
     SnapReport snap;
     std::vector<SolidReport> solids;
     TetQuality quality;
-    int shared_points = 0;  // nodes that solids have in common
+    int shared_points = 0;   // nodes that solids have in common
+    int contact_rounds = 0;  // times all was meshed again with more vertices on contacts
 };
 
 // tets have det(b-a, c-a, d-a) > 0 in doubles; skin triangles face outward.
@@ -96,12 +97,14 @@ struct TetResult {
     std::vector<int> tet_solid;
     std::vector<Triangle> skin;
     std::vector<int> skin_source;  // a caller's triangle of the same plane and face
+    std::vector<int> skin_twin;    // where two solids touch: the other's skin triangle, else -1
     TetReport report;
 };
 
 // Snap, pull-off, fence-off, emission, compaction, restoring and the kernel's own check, for each
 // solid; solids then share nodes at equal places. On failure other directions, no pull-off, other
-// grids and no compaction are tried, in this order.
+// grids and no compaction are tried, in this order. Where two solids touch in a plane, both sides
+// get the same triangles (imprint_contacts.h): each is in the skin twice, once for each solid.
 //
 // \throw InvalidSolid when the surface can't be put on a grid; VerificationFailed when every
 //        attempt failed; Cancelled.
