@@ -131,7 +131,13 @@ int unmatched(const TetResult& result, const Imprint& imprint) {
 struct Work {
     Imprint imprint;
     TetInput surface;
-    int round = 0;
+    int round = 0;  // of meshing with more points
+
+    void begin(const TetInput& input, Progress& progress) {
+        imprint = imprint_contacts(input, progress);
+        round = 0;
+        prepare();
+    }
 
     void prepare() {
         surface = imprint.any() ? with_contact_faces(imprint) : std::move(imprint.surface);
@@ -207,18 +213,26 @@ TetResult tetrahedralize(const TetInput& input, const TetOptions& options, Progr
     Work work;
     {
         const StageClock::Scope scope(clock, "contacts");
-        work.imprint = imprint_contacts(input, progress);
-        work.prepare();
+        work.begin(input, progress);
     }
+    TetOptions chosen = options;
     for (int bits = lowest;;) {
         GridChoice choice;
         try {
             const StageClock::Scope scope(clock, "snap");
             choice = snapped(work.surface, bits, highest, progress);
         } catch (const InvalidSolid&) {
+            if (work.round > 0 && chosen.compact.level == CompactLevel::none) {
+                failures.push_back("contacts need too many points without compaction");
+                chosen.compact.level = CompactLevel::standard;
+                work.begin(input, progress);
+                continue;
+            }
             // A finer grid that is worse is no reason to call the solid invalid.
-            if (failures.empty()) throw;
-            throw VerificationFailed(failures.back());
+            if (failures.empty() && work.round == 0) throw;
+            throw VerificationFailed(failures.empty() ? "solids in contact cross each other when "
+                                                        "their contact gets more vertices"
+                                                      : failures.back());
         }
         const int used = choice.solid.grid.bits;
         const auto give_up_or_refine = [&](const char* what) {
@@ -228,7 +242,7 @@ TetResult tetrahedralize(const TetInput& input, const TetOptions& options, Progr
         };
         try {
             std::optional<TetResult> result =
-                mesh_round(input, options, std::move(choice), work, clock, progress);
+                mesh_round(input, chosen, std::move(choice), work, clock, progress);
             if (!result) continue;
             for (SolidReport& solid : result->report.solids)
                 solid.repairs.insert(solid.repairs.begin(), failures.begin(), failures.end());
