@@ -246,7 +246,7 @@ def tetrahedralize(
         skin=found["skin"],
         skin_face=skin_face,
         skin_source=skin_source,
-        skin_twin=found["skin_twin"],
+        skin_twin=found.get("skin_twin"),
         tet_solid=found["tet_solid"],
         point_source=found["point_source"],
         face_names=checked.solid.face_names,
