@@ -43,3 +43,8 @@ def test_tetrahedra(path):
                     check_tets(read_off(path), options)
                 except (Unfit, load().VerificationFailed):
                     assert path.stem in BEYOND
+    for compact in ("off", "default", "max"):
+        try:
+            check_tets(read_off(path), {"method": "bajaj-dey", "compact": compact})
+        except (Unfit, load().VerificationFailed):
+            assert path.stem in BEYOND
