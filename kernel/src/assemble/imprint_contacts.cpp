@@ -63,8 +63,6 @@ Complex complex_of_triangles(const GridSolid& solid) {
 
 using Edge = std::pair<int, int>;  // grid points, the lower first
 
-Edge edge(int u, int v) { return {std::min(u, v), std::max(u, v)}; }
-
 // Where two of the caller's edges meet in doubles: the point of the first nearest to the second.
 Vec3d meeting(const Vec3d& a, const Vec3d& b, const Vec3d& c, const Vec3d& d) {
     const Vec3d u = minus(b, a), v = minus(d, c), w = minus(a, c);
