@@ -39,9 +39,9 @@ std::optional<Vec3d> to_direction(const nb::object& value) {
 
 TetOptions to_options(const nb::dict& options) {
     TetOptions chosen;
-    chosen.method = named<TetMethod>(options, "method",
-                                     {{"chazelle-palios", TetMethod::chazelle_palios},
-                                      {"bajaj-dey", TetMethod::bajaj_dey}});
+    chosen.method = named<TetMethod>(
+        options, "method",
+        {{"chazelle-palios", TetMethod::chazelle_palios}, {"bajaj-dey", TetMethod::bajaj_dey}});
     chosen.direction = to_direction(option(options, "direction"));
     const nb::object candidates = option(options, "directions");
     if (!candidates.is_none()) chosen.candidates = to_vertices(nb::cast<VertexArray>(candidates));
@@ -223,8 +223,8 @@ nb::dict to_report(const TetResult& r, TetMethod method) {
     counts["pulled_vertices"] = total.pulled;
     counts["shared_points"] = r.report.shared_points;
     counts["contact_triangles"] =
-        (r.skin_twin.size() - static_cast<std::size_t>(std::count(
-                                  r.skin_twin.begin(), r.skin_twin.end(), -1))) /
+        (r.skin_twin.size() -
+         static_cast<std::size_t>(std::count(r.skin_twin.begin(), r.skin_twin.end(), -1))) /
         2;
     for (const auto& [stage, time] : r.report.seconds) seconds[stage.c_str()] = time;
     repairs["vertices_on_grid"] = total.vertices_on_grid;

@@ -39,9 +39,8 @@ struct Stages {
                                 int ceiling) {
             const int call = count++;
             if (calls) *calls = count;
-            return call >= first && call < last
-                       ? std::nullopt
-                       : fence::point_in_column(p, base, floor, ceiling);
+            return call >= first && call < last ? std::nullopt
+                                                : fence::point_in_column(p, base, floor, ceiling);
         };
         return fence::build_columns(plan, walls, joints, bases, progress, finder);
     }

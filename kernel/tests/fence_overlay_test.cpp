@@ -131,8 +131,8 @@ class Overlay {
         for (std::size_t i = 0; i < row.size(); ++i) {
             const Segment& s = *row[i].second;
             if (i + 1 < row.size())
-                list.push_back({&s, row[i + 1].second,
-                                stack_at(x, (row[i].first + row[i + 1].first) * half)});
+                list.push_back(
+                    {&s, row[i + 1].second, stack_at(x, (row[i].first + row[i + 1].first) * half)});
             const std::vector<Cell>& below = i > 0 ? list[i - 1].stack : nothing;
             const std::vector<Cell>& above = i + 1 < row.size() ? list[i].stack : nothing;
             add_wall(below, above, {x0, s.y(x0)}, {x1, s.y(x1)});
@@ -146,8 +146,7 @@ class Overlay {
             d{x0, t.high->y(x0)};
         for (const auto& triangle : {std::array{a, b, c}, std::array{a, c, d}}) {
             const auto& [p, q, r] = triangle;
-            const Mod area2 =
-                ((q[0] - p[0]) * (r[1] - p[1]) - (q[1] - p[1]) * (r[0] - p[0])).mod();
+            const Mod area2 = ((q[0] - p[0]) * (r[1] - p[1]) - (q[1] - p[1]) * (r[0] - p[0])).mod();
             for (const Cell& cell : t.stack) {
                 Mod heights = 0;
                 for (const Place& v : triangle)
@@ -320,7 +319,9 @@ class FenceCensus {
 
     // Two corners lie on one vertical line; marks ascend with the height.
     void add_triangle(const Triangle& corners, const Cell& a, const Cell& b) {
-        const auto point = [&](std::size_t i) { return fence::at(joints_.marks, corners[i]).point; };
+        const auto point = [&](std::size_t i) {
+            return fence::at(joints_.marks, corners[i]).point;
+        };
         const bool low_pair = point(0) == point(1);
         const std::size_t i = low_pair ? 0 : 1, lone = low_pair ? 2 : 0;
         ASSERT_EQ(point(i), point(i + 1));

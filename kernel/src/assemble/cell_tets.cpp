@@ -18,8 +18,8 @@ void add_polygon(const Polygon& polygon, int key, Splits& splits) {
                    plane_of(key), plane_of(polygon.beyond[i]));
 }
 
-Splits find_splits(Complex& complex, const std::vector<Piece>& pieces,
-                   const std::vector<Rim>& rims, const Slits& slits, Progress& progress) {
+Splits find_splits(Complex& complex, const std::vector<Piece>& pieces, const std::vector<Rim>& rims,
+                   const Slits& slits, Progress& progress) {
     Splits splits;
     for (const Facet& f : complex.facets) add_polygon(f.polygon, f.key, splits);
     for (const Piece& p : pieces) add_polygon(p.polygon, complex.facets[p.front].key, splits);

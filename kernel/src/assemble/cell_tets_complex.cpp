@@ -78,8 +78,7 @@ Complex make_complex(const GridSolid& solid, const std::vector<Polyhedra>& cells
                      const std::vector<int>& solid_ids) {
     Complex complex(solid.grid.bits);
     for (const Vec3i& p : solid.points) complex.points.add_input(p);
-    for (std::size_t s = 0; s < cells.size(); ++s)
-        Filler(complex, cells[s], solid_ids[s]).fill();
+    for (std::size_t s = 0; s < cells.size(); ++s) Filler(complex, cells[s], solid_ids[s]).fill();
     return complex;
 }
 
@@ -102,12 +101,10 @@ bool clip(PointTable& points, Polygon& polygon, int key_here, int key) {
     for (std::size_t i = 0; i < n; ++i) {
         const std::size_t j = (i + 1) % n;
         const int beyond = polygon.beyond[i];
-        if (side[i] <= 0)
-            push(polygon.corners[i], side[i] == 0 && side[j] > 0 ? key : beyond);
+        if (side[i] <= 0) push(polygon.corners[i], side[i] == 0 && side[j] > 0 ? key : beyond);
         if (side[i] * side[j] >= 0) continue;
         const int line = points.plane_line(plane_of(key_here), plane_of(beyond));
-        const int crossing =
-            points.meet(line, plane_of(key), plane_of(key_here), plane_of(beyond));
+        const int crossing = points.meet(line, plane_of(key), plane_of(key_here), plane_of(beyond));
         push(crossing, side[i] < 0 ? key : beyond);
     }
     polygon = std::move(kept);

@@ -64,7 +64,7 @@ class Cones {
     // The vertex with most triangles, all of whose facets are fanned from it; -1 when there is
     // none.
     int corner_apex(int cell) const {
-        std::map<int, int> total;                      // triangles per facet
+        std::map<int, int> total;                     // triangles per facet
         std::map<int, std::map<int, int>> at_vertex;  // vertex -> facet -> triangles
         for (const int f : faces_of_[cell]) {
             ++total[faces_[f].facet];

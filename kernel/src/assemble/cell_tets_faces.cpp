@@ -45,8 +45,9 @@ class FaceMaker {
     void append_loop(const Polygon& polygon, Edges& out) const {
         const std::vector<int>& c = polygon.corners;
         for (std::size_t i = 0; i < c.size(); ++i)
-            splits_.for_parts(c[i], c[(i + 1) % c.size()],
-                              [&](int u, int v) { out.push_back({u, v}); });
+            splits_.for_parts(c[i], c[(i + 1) % c.size()], [&](int u, int v) {
+                out.push_back({u, v});
+            });
     }
 
     bool two_sided(int facet) const { return slits_.two_sided[plane_of(c_.facets[facet].key)]; }
@@ -172,8 +173,9 @@ class OwnerFlood {
     void run(const std::vector<int>& candidates, const std::vector<const Rim*>& rims) {
         std::map<std::pair<int, int>, int> owner_left;
         for (const Rim* rim : rims)
-            splits_.for_parts(rim->from, rim->to,
-                              [&](int u, int v) { owner_left[{u, v}] = rim->owner; });
+            splits_.for_parts(rim->from, rim->to, [&](int u, int v) {
+                owner_left[{u, v}] = rim->owner;
+            });
         std::map<std::pair<int, int>, int> face_left;
         for (const int f : candidates)
             for (std::size_t k = 0; k < 3; ++k) face_left[edge(f, k)] = f;

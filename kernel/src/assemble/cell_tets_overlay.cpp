@@ -43,8 +43,8 @@ class Overlay {
     int solid_of(int facet) const { return c_.cell_solid[c_.facets[facet].cell]; }
 
     void overlay_plane(const std::vector<int>& facets) {
-        const auto fronts = std::count_if(facets.begin(), facets.end(),
-                                          [&](int f) { return is_front(f); });
+        const auto fronts =
+            std::count_if(facets.begin(), facets.end(), [&](int f) { return is_front(f); });
         if (fronts == 0 || fronts == static_cast<std::ptrdiff_t>(facets.size())) return;
         Boxes boxes;
         for (const int f : facets) boxes.add(box_of(c_.points, c_.facets[f].polygon.corners));
@@ -77,8 +77,8 @@ class RimFinder {
     RimFinder(Complex& complex, const GridSolid& solid, const std::vector<int>& owners)
         : c_(complex), solid_(solid), owners_(owners) {
         for (const Triangle& t : solid.triangles)
-            key_.push_back(c_.points.add_plane(plane_through(
-                solid.points[t[0]], solid.points[t[1]], solid.points[t[2]])));
+            key_.push_back(c_.points.add_plane(
+                plane_through(solid.points[t[0]], solid.points[t[1]], solid.points[t[2]])));
         c_.on_plane.resize(static_cast<std::size_t>(c_.points.planes()));
     }
 
@@ -160,8 +160,7 @@ class RimClipper {
             if (sa >= 0 && sb >= 0) return;
             if (sa <= 0 && sb <= 0) continue;
             if (line < 0) line = line_of(rim);
-            (sa > 0 ? a : b) =
-                c_.points.meet(line, plane_of(beyond), plane_of(key), plane_of(key));
+            (sa > 0 ? a : b) = c_.points.meet(line, plane_of(beyond), plane_of(key), plane_of(key));
         }
         if (a != b) out.push_back({a, b});
     }

@@ -94,7 +94,8 @@ class Splits {
         const std::vector<int>* inner = between(a, b);
         int last = a;
         if (inner && a < b)
-            for (auto i = inner->begin(); i != inner->end(); ++i) visit(std::exchange(last, *i), *i);
+            for (auto i = inner->begin(); i != inner->end(); ++i)
+                visit(std::exchange(last, *i), *i);
         else if (inner)
             for (auto i = inner->rbegin(); i != inner->rend(); ++i)
                 visit(std::exchange(last, *i), *i);

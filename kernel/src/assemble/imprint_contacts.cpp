@@ -49,8 +49,8 @@ Complex complex_of_triangles(const GridSolid& solid) {
         Facet facet{static_cast<int>(t), complex.points.add_plane(plane), {{c[0], c[1], c[2]}, {}}};
         for (const int p : c) complex.points.set_on(p, plane_of(facet.key));
         for (std::size_t k = 0; k < 3; ++k)
-            facet.polygon.beyond.push_back(upright(solid, complex.points, plane, c[k],
-                                                   c[(k + 1) % 3], c[(k + 2) % 3]));
+            facet.polygon.beyond.push_back(
+                upright(solid, complex.points, plane, c[k], c[(k + 1) % 3], c[(k + 2) % 3]));
         complex.facets.push_back(std::move(facet));
         complex.first_facet.push_back(static_cast<int>(complex.facets.size()));
         complex.cell_solid.push_back(solid.solid[t]);
@@ -237,8 +237,9 @@ class Imprinter {
 
     void append_loop(const std::vector<int>& corners, Edges& out) const {
         for (std::size_t i = 0; i < corners.size(); ++i)
-            splits_.for_parts(corners[i], corners[(i + 1) % corners.size()],
-                              [&](int u, int v) { out.push_back({u, v}); });
+            splits_.for_parts(corners[i], corners[(i + 1) % corners.size()], [&](int u, int v) {
+                out.push_back({u, v});
+            });
     }
 
     // Both sides at once.
@@ -364,9 +365,9 @@ bool Imprint::any() const {
 
 Imprint imprint_contacts(const TetInput& input, Progress& progress) {
     Imprinter imprinter(input, progress);
-    const bool several = !input.solid.empty() &&
-                         std::any_of(input.solid.begin(), input.solid.end(),
-                                     [&](int s) { return s != input.solid.front(); });
+    const bool several =
+        !input.solid.empty() && std::any_of(input.solid.begin(), input.solid.end(),
+                                            [&](int s) { return s != input.solid.front(); });
     return several ? imprinter.run() : imprinter.as_given();
 }
 

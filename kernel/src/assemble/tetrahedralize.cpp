@@ -162,8 +162,8 @@ TetResult mesh_solids(const TetInput& input, const GridSolid& grid, const Imprin
         joiner.add(std::move(tets), part);
     }
     TetResult result = joiner.take();
-    result.skin_twin = solids.size() > 1 ? skin_twins(result.skin)
-                                         : std::vector<int>(result.skin.size(), -1);
+    result.skin_twin =
+        solids.size() > 1 ? skin_twins(result.skin) : std::vector<int>(result.skin.size(), -1);
     return result;
 }
 
@@ -182,8 +182,8 @@ std::optional<TetResult> mesh_round(const TetInput& input, const TetOptions& opt
                                     GridChoice&& choice, Work& work, StageClock& clock,
                                     Progress& progress) {
     std::vector<ContactPoint> points;
-    TetResult result = mesh_solids(work.surface, choice.solid, work.imprint, options, points, clock,
-                                   progress);
+    TetResult result =
+        mesh_solids(work.surface, choice.solid, work.imprint, options, points, clock, progress);
     const int open = unmatched(result, work.imprint);
     if (open > 0) {
         if (points.empty() || work.round == kContactRounds)

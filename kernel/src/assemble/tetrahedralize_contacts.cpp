@@ -28,9 +28,8 @@ class Divider {
         }
         for (auto& [e, list] : on_edge_) {
             const Vec3d& start = imprint_.surface.vertices[e.first];
-            std::sort(list.begin(), list.end(), [&](int a, int b) {
-                return distance2(a, start) < distance2(b, start);
-            });
+            std::sort(list.begin(), list.end(),
+                      [&](int a, int b) { return distance2(a, start) < distance2(b, start); });
         }
         const Imprint old = imprint_;
         imprint_.surface.triangles.clear();

@@ -53,7 +53,7 @@ struct DirectionTrial {
 // What notch cutting and the overlay of its cells did.
 struct CellTetCounts {
     int notches = 0;
-    int planes = 0;     // that cover the notches
+    int planes = 0;  // that cover the notches
     int cuts = 0;
     int raw_cells = 0;  // before merging
     int cells = 0;
