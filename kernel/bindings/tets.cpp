@@ -231,7 +231,7 @@ nb::dict to_report(const TetResult& r, TetMethod method) {
     repairs["steiner_off_plane"] = total.off_plane;
     repairs["unblocking_flips"] = total.unblocked;
     repairs["peeled"] = total.peeled;
-    repairs["contact_rounds"] = r.report.contact_rounds;
+    repairs["contact_points"] = r.report.contact_points;
     repairs["merged_points"] = r.report.snap.merged_points;
     repairs["flipped_edges"] = r.report.snap.flipped_edges;
     nb::list solids;

@@ -11,11 +11,14 @@ import numpy as np
 import pytest
 
 from freecad_tetra.api import as_solid, tetrahedralize, validate
+from freecad_tetra.brep import read_shape
 
 pytest.importorskip("OCP", reason="cadquery-ocp is not installed")
 
+from OCP.Bnd import Bnd_Box
 from OCP.BRep import BRep_Builder
 from OCP.BRepAlgoAPI import BRepAlgoAPI_Cut
+from OCP.BRepBndLib import BRepBndLib
 from OCP.BRepBuilderAPI import BRepBuilderAPI_Transform
 from OCP.BRepPrimAPI import BRepPrimAPI_MakeBox, BRepPrimAPI_MakeCylinder
 from OCP.gp import gp_Ax1, gp_Ax2, gp_Dir, gp_Pnt, gp_Trsf
@@ -87,6 +90,32 @@ def test_step_assemblies_are_face_to_face(tmp_path: Path, name: str, turn: bool)
     assert contact_area(mesh) == pytest.approx(area, rel=max(error, 1e-9))
     assert mesh.report.repairs["vertices_on_grid"] == 0
     assert mesh.report.details["surface"]["shared_faces"] >= 1
+
+
+PART = Path(__file__).parents[3] / "shared" / "corpus" / "brep" / "page68_bybejant.brep"
+
+
+@pytest.mark.skipif(not PART.is_file(), reason=f"{PART} is not here")
+def test_a_part_in_its_mould() -> None:
+    """Every face of a real part, curved ones too, is a contact with the block around it."""
+    part = read_shape(PART)
+    bounds = Bnd_Box()
+    BRepBndLib.Add_s(part, bounds, False)
+    bounds.Enlarge(5.0)
+    low, high = bounds.CornerMin(), bounds.CornerMax()
+    block = BRepPrimAPI_MakeBox(low, high).Solid()
+    mesh = tetrahedralize(compound(part, BRepAlgoAPI_Cut(block, part).Shape()))
+    assert (mesh.skin_twin >= 0).sum() == 2 * mesh.report.counts["contact_triangles"]
+    alone = tetrahedralize(part)
+    assert contact_area(mesh) == pytest.approx(area_of_skin(alone), rel=1e-3)
+    size = (high.X() - low.X()) * (high.Y() - low.Y()) * (high.Z() - low.Z())
+    assert mesh.report.volume == pytest.approx(size, rel=1e-12)
+
+
+def area_of_skin(mesh: Any) -> float:
+    corners = mesh.points[mesh.skin]
+    normals = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
+    return float(np.linalg.norm(normals, axis=1).sum() / 2)
 
 
 def test_faces_keep_their_numbers() -> None:

@@ -86,7 +86,7 @@ struct TetReport {
     std::vector<SolidReport> solids;
     TetQuality quality;
     int shared_points = 0;   // nodes that solids have in common
-    int contact_rounds = 0;  // times all was meshed again with more vertices on contacts
+    int contact_points = 0;  // put into finished meshes, where a later solid needed them
 };
 
 // tets have det(b-a, c-a, d-a) > 0 in doubles; skin triangles face outward.
