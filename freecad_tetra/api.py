@@ -154,12 +154,18 @@ def tetrahedralize(
 ) -> TetMesh:
     """Fill a solid with face-to-face tetrahedra that keep its boundary exactly.
 
+    Several solids that touch give one mesh: where they meet in planes, or share faces of the
+    B-rep, both have the same nodes and triangles (`TetMesh.skin_twin`), whatever their
+    tessellations were.
+
     Parameters
     ----------
     source : see `as_solid`
     method : {"chazelle-palios", "bajaj-dey"}
+        Pull-off and fences (Chazelle and Palios 1990), or the convex cells of notch cutting,
+        overlaid and coned (Bajaj and Dey 1990, 3).
     direction : "auto", "x", "y", "z" or three integers
-        Direction of the fences.
+        Direction of the fences; of chazelle-palios only, as `pull_off`.
     pull_off : {"auto", "on", "off"}
     compact : {"default", "max", "off"}
     progress : callable, optional

@@ -242,9 +242,6 @@ def tetrahedralize(
     if checked.solid.face_names:  # edges between coplanar B-rep faces are kept
         given.setdefault("face_ids", checked.solid.face_ids[checked.triangle_source])
     found = _decompose("tetrahedralize", checked, given, progress)
-    done = found["report"].get("method", given.get("method"))
-    if given.get("method") not in (None, done):
-        raise BadOption(f"this kernel has no method {given['method']} for tetrahedra")
     skin_source, skin_face = _to_caller(checked, found["skin_source"])
     mesh = TetMesh(
         points=found["points"],
@@ -252,6 +249,7 @@ def tetrahedralize(
         skin=found["skin"],
         skin_face=skin_face,
         skin_source=skin_source,
+        skin_twin=found.get("skin_twin"),
         tet_solid=found["tet_solid"],
         point_source=found["point_source"],
         face_names=checked.solid.face_names,

@@ -335,11 +335,16 @@ class TetMesh:
     tets : (t, 4) int32
         Positively oriented: det(b - a, c - a, d - a) > 0.
     skin : (s, 3) int32
-        Triangles of the boundary, counter-clockwise seen from outside.
+        Triangles of the boundary of each solid, counter-clockwise seen from its outside.
+        Where two solids touch, a triangle comes twice, once for each with its own face:
+        groups per face are complete for every solid.
     skin_face : (s,) int32
         B-rep face of each skin triangle, an index into `face_names`.
     skin_source : (s,) int32
         Input triangle that carries the skin triangle.
+    skin_twin : (s,) int32
+        Row of the skin triangle of the touching solid with the same corners, or -1: the rows
+        of -1 are the outer skin of all solids together.
     tet_solid : (t,) int32
     point_source : (p,) int32
         Input vertex, or -1 for a Steiner point.
@@ -356,12 +361,15 @@ class TetMesh:
     point_source: IntArray
     face_names: tuple[str, ...] = ()
     report: Report = field(default_factory=Report)
+    skin_twin: IntArray | None = None
 
     def __post_init__(self) -> None:
+        if self.skin_twin is None:
+            object.__setattr__(self, "skin_twin", np.full(len(self.skin), -1))
         _freeze(self, "points", np.float64, -1, 3)
         _freeze(self, "tets", np.int32, -1, 4)
         _freeze(self, "skin", np.int32, -1, 3)
-        for name in ("skin_face", "skin_source", "tet_solid", "point_source"):
+        for name in ("skin_face", "skin_source", "skin_twin", "tet_solid", "point_source"):
             _freeze(self, name, np.int32, -1)
 
     def __len__(self) -> int:

@@ -20,6 +20,7 @@ from OCP.TopoDS import TopoDS
 from OCP.TopTools import TopTools_IndexedMapOfShape
 
 from freecad_tetra.brep import Deflection
+from freecad_tetra.brep.contacts import share_contacts
 from freecad_tetra.brep.weld import Nodes, compact
 from freecad_tetra.errors import Defect, InvalidSolid
 from freecad_tetra.model import Solid
@@ -35,32 +36,42 @@ def tessellate(shape: Any, deflection: Deflection, name: str, only: int | None) 
     shape = BRepBuilderAPI_Copy(shape, False, False).Shape()
     solids = _solids(shape, only)
     linear = deflection.linear or deflection.relative * _diagonal(shape)
-    mesh = BRepMesh_IncrementalMesh(shape, linear, False, deflection.angular, False)
-    faces = _Faces(shape)
+    numbers = TopTools_IndexedMapOfShape()
+    TopExp.MapShapes_s(shape, FACE, numbers)
+    shared = share_contacts([s for _, s in solids], numbers)
+    meshed = shape if shared is None else shared.shape
+    mesh = BRepMesh_IncrementalMesh(meshed, linear, False, deflection.angular, False)
+    faces = _Faces(meshed)
     rows, face_ids, solid_ids = [], [], []
-    for number, solid in solids:
-        for face in _explore(solid, FACE):
+    bare: list[int] = []
+    for place, (number, solid) in enumerate(solids):
+        for face in _explore(solid if shared is None else shared.solids[place], FACE):
             if face.Orientation() not in (FORWARD, REVERSED):
                 continue
-            face_id = faces.number(face)
-            triangles = faces.triangles(face_id)
+            triangles = faces.triangles(faces.number(face))
             if face.Orientation() == REVERSED:
                 triangles = triangles[:, ::-1]
+            face_id = faces.number(face)
+            if shared is not None:
+                face_id = shared.origin[place][shared.faces.FindIndex(face)]
+            if len(triangles) == 0 and face_id not in bare:
+                bare.append(face_id)
             rows.append(triangles)
             face_ids.append(np.full(len(triangles), face_id, np.int32))
             solid_ids.append(np.full(len(triangles), number, np.int32))
-    if faces.bare:
-        raise InvalidSolid([_no_mesh(faces.bare, mesh.GetStatusFlags())])
+    if bare:
+        raise InvalidSolid([_no_mesh(bare, mesh.GetStatusFlags())])
     triangles = faces.nodes.welded(np.concatenate(rows)) if rows else np.zeros((0, 3), np.int32)
     notes = {
         "linear_deflection": linear,
         "angular_deflection": deflection.angular,
         "brep_volume": _volume([s for _, s in solids]),
         "solids": len(solids),
+        "shared_faces": 0 if shared is None else shared.contacts,
     }
     return compact(
         faces.nodes.points(), triangles, np.concatenate(face_ids), np.concatenate(solid_ids),
-        tuple(f"Face{i + 1}" for i in range(faces.count)), name, notes,
+        tuple(f"Face{i + 1}" for i in range(numbers.Extent())), name, notes,
     )  # fmt: skip
 
 
@@ -115,8 +126,6 @@ class _Faces:
         TopExp.MapShapes_s(shape, FACE, self._table)
         self._edges = TopTools_IndexedMapOfShape()
         self._vertices = TopTools_IndexedMapOfShape()
-        self.count = self._table.Extent()
-        self.bare: list[int] = []
         self._triangles: dict[int, np.ndarray[Any, Any]] = {}
         self.nodes = Nodes()
 
@@ -136,7 +145,6 @@ class _Faces:
         location = TopLoc_Location()
         mesh = BRep_Tool.Triangulation_s(face, location)
         if mesh is None or mesh.NbTriangles() == 0:
-            self.bare.append(number)
             return np.zeros((0, 3), np.int64)
         points = []
         move = None if location.IsIdentity() else location.Transformation()

@@ -2,6 +2,8 @@
 // tetrahedralize(): conforming tetrahedra of a valid surface, as a dict.
 #include "tetra/assemble/tetrahedralize.h"
 
+#include <algorithm>
+
 #include "convert.h"
 
 namespace tetra::python {
@@ -37,6 +39,9 @@ std::optional<Vec3d> to_direction(const nb::object& value) {
 
 TetOptions to_options(const nb::dict& options) {
     TetOptions chosen;
+    chosen.method = named<TetMethod>(
+        options, "method",
+        {{"chazelle-palios", TetMethod::chazelle_palios}, {"bajaj-dey", TetMethod::bajaj_dey}});
     chosen.direction = to_direction(option(options, "direction"));
     const nb::object candidates = option(options, "directions");
     if (!candidates.is_none()) chosen.candidates = to_vertices(nb::cast<VertexArray>(candidates));
@@ -92,6 +97,18 @@ nb::dict to_dict(const FenceCounts& c) {
     return d;
 }
 
+nb::dict to_dict(const CellTetCounts& c) {
+    nb::dict d;
+    d["notches"] = c.notches;
+    d["planes"] = c.planes;
+    d["cuts"] = c.cuts;
+    d["raw_cells"] = c.raw_cells;
+    d["cells"] = c.cells;
+    d["pieces"] = c.pieces;
+    d["cone_cells"] = c.cone_cells;
+    return d;
+}
+
 nb::dict to_dict(const CompactStats& c) {
     nb::dict d;
     d["tets_before"] = c.tets_before;
@@ -143,6 +160,7 @@ nb::dict to_dict(const SolidReport& s) {
     d["pull_off"] = to_dict(s.pull);
     d["cup_tets"] = s.cup_tets;
     d["fence_off"] = to_dict(s.fences);
+    d["notch_cutting"] = to_dict(s.cells);
     d["compact"] = to_dict(s.compact);
     d["restore"] = to_dict(s.restore);
     d["steiner_distance"] = s.check.steiner_distance;
@@ -191,7 +209,7 @@ Totals totals_of(const TetResult& r) {
     return t;
 }
 
-nb::dict to_report(const TetResult& r) {
+nb::dict to_report(const TetResult& r, TetMethod method) {
     const Totals total = totals_of(r);
     nb::dict counts, seconds, repairs, report;
     counts["tets"] = r.tets.size();
@@ -204,16 +222,21 @@ nb::dict to_report(const TetResult& r) {
     counts["steiner_before_compaction"] = total.raw_steiner;
     counts["pulled_vertices"] = total.pulled;
     counts["shared_points"] = r.report.shared_points;
+    counts["contact_triangles"] =
+        (r.skin_twin.size() -
+         static_cast<std::size_t>(std::count(r.skin_twin.begin(), r.skin_twin.end(), -1))) /
+        2;
     for (const auto& [stage, time] : r.report.seconds) seconds[stage.c_str()] = time;
     repairs["vertices_on_grid"] = total.vertices_on_grid;
     repairs["steiner_off_plane"] = total.off_plane;
     repairs["unblocking_flips"] = total.unblocked;
     repairs["peeled"] = total.peeled;
+    repairs["contact_points"] = r.report.contact_points;
     repairs["merged_points"] = r.report.snap.merged_points;
     repairs["flipped_edges"] = r.report.snap.flipped_edges;
     nb::list solids;
     for (const SolidReport& s : r.report.solids) solids.append(to_dict(s));
-    report["method"] = "chazelle-palios";
+    report["method"] = method == TetMethod::bajaj_dey ? "bajaj-dey" : "chazelle-palios";
     report["direction"] = r.report.solids.empty() ? "" : r.report.solids.front().direction;
     report["seconds"] = seconds;
     report["counts"] = counts;
@@ -236,7 +259,7 @@ nb::dict tetrahedralize_arrays(const VertexArray& vertices, const TriangleArray&
     TetResult r = without_gil(std::move(progress),
                               [&](Progress& p) { return tetrahedralize(input, chosen, p); });
     nb::dict result;
-    result["report"] = to_report(r);
+    result["report"] = to_report(r, chosen.method);
     std::vector<int> face = r.skin_source;
     if (!input.face.empty())
         for (int& f : face) f = input.face[static_cast<std::size_t>(f)];
@@ -246,6 +269,7 @@ nb::dict tetrahedralize_arrays(const VertexArray& vertices, const TriangleArray&
     result["tet_solid"] = to_numpy(std::move(r.tet_solid));
     result["skin"] = rows_to_numpy(r.skin);
     result["skin_source"] = to_numpy(std::move(r.skin_source));
+    result["skin_twin"] = to_numpy(std::move(r.skin_twin));
     result["skin_face"] = to_numpy(std::move(face));
     return result;
 }
@@ -259,13 +283,14 @@ void bind_tets(nb::module_& m) {
           R"(Fill a valid surface with face-to-face tetrahedra.
 
 vertices f64 (n, 3); triangles i32 (m, 3), index base 0, closed and outward; solid i32 (m,) or
-None. Options: `direction` ("auto", "x", "y", "z" or three numbers), `directions` f64 (k, 3)
+None. Options: `method` ("chazelle-palios", "bajaj-dey"), `direction` ("auto", "x", "y", "z" or three numbers), `directions` f64 (k, 3)
 candidates, `pull_off` ("auto", "on", "off"), `compact` ("default", "max", "off"),
 `compact_seconds` (0 = no limit), `seed`, `grid_bits` (0 = the coarsest of 20..26 that keeps the
 vertices apart), `face_ids` i32 (m,), `quality` (False).
 Returns a dict: `points` f64 (p, 3), `point_source` i32 (p,) vertex or -1, `tets` i32 (t, 4) of
 positive orientation, `tet_solid` i32 (t,), `skin` i32 (s, 3) outward, `skin_source` i32 (s,) a
-triangle of the same plane and face, `skin_face` i32 (s,), and `report`, a dict.
+triangle of the same plane and face, `skin_face` i32 (s,), `skin_twin` i32 (s,) the skin triangle
+of the solid in contact or -1, and `report`, a dict.
 Raises InvalidSolid, VerificationFailed, Cancelled, ValueError for unknown options.)");
 }
 

@@ -55,6 +55,14 @@ def test_meshes(tmp_path: Path, path: Path, kind: str) -> None:
     judged(kind, path, out)
 
 
+@pytest.mark.parametrize("path", [*parts("off"), *parts("family")])
+def test_tetrahedra_of_cells(tmp_path: Path, path: Path) -> None:
+    out = tmp_path / "out.vtu"
+    done = run("tets", path, "--method", "bajaj-dey", "-o", out)
+    assert done.returncode == 0, done.stderr
+    judged("tets", path, out)
+
+
 @pytest.mark.parametrize("kind", ["cells", "tets"])
 @pytest.mark.parametrize("path", parts("brep"))
 def test_breps(tmp_path: Path, path: Path, kind: str) -> None:

@@ -77,6 +77,33 @@ def test_tetrahedra_are_proven(shape, direction):
     assert counts["on_grid"] == 0 or not shape.whole
 
 
+@pytest.mark.parametrize("compact", ["default", "off", "max"])
+@pytest.mark.parametrize("shape", SHAPES, ids=name_of)
+def test_tetrahedra_of_cells_are_proven(shape, compact):
+    counts = check_tets(shape.surface, {"method": "bajaj-dey", "compact": compact})
+    assert counts["lost"] == 0
+    assert counts["on_grid"] == 0 or not shape.whole
+
+
+def test_plate_with_holes_has_no_crossing():
+    """Seen through its 100 holes no two edges cross: a Steiner point is never made."""
+    plate = next(s.surface for s in SHAPES if s.name == "plate_with_100_holes")
+    options = {"pull_off": "off", "compact": "off"}
+    assert check_tets(plate, options)["steiner"] == 0
+    assert check_tets(plate, {**options, "direction": [1, 2, 3]})["steiner"] > 0
+
+
+@pytest.mark.parametrize("method", ["chazelle-palios", "bajaj-dey"])
+def test_tetrahedra_of_the_family_grow_with_the_square(method):
+    """Between N^2, the lower bound's order, and 16 N^2; per N^2 they come to rest."""
+    share = {}
+    for n in (4, 8, 16):
+        counts = check_tets(chazelle(n), {"method": method})
+        share[n] = counts["tets"] / n**2
+        assert 1 < share[n] < 16
+    assert share[16] < share[8] < share[4]
+
+
 def test_schoenhardt_needs_exactly_one_steiner_point():
     assert check_tets(schoenhardt(), {})["steiner"] == 1
 

@@ -52,6 +52,20 @@ def test_random_solids_are_filled(family):
     assert sums["volume_error"] == pytest.approx(0, abs=1e-12)
 
 
+@pytest.mark.parametrize("family", [random_voxel, random_type1, random_csg, dented_hull])
+def test_random_solids_are_filled_by_cells(family):
+    sums, unfit = Counter(), 0
+    for seed in range(40):
+        options = {**drawn_options(seed), "method": "bajaj-dey"}
+        try:
+            sums.update(check_tets_at_once(family(seed), options))
+        except Unfit:
+            unfit += 1
+    assert unfit <= 2
+    assert sums["lost"] == 0 and sums["on_grid"] == 0
+    assert sums["volume_error"] == pytest.approx(0, abs=1e-12)
+
+
 def test_convex_solids_are_consumed_whole():
     """Pull-off alone fills them: no Steiner point, at most three tetrahedra a vertex."""
     for seed in range(20):

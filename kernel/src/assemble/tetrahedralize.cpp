@@ -3,10 +3,10 @@
 #include "tetra/assemble/tetrahedralize.h"
 
 #include <algorithm>
-#include <map>
 #include <numeric>
 
 #include "tetra/solid/validate.h"
+#include "tetrahedralize_contacts.h"
 #include "tetrahedralize_solid.h"
 
 namespace tetra {
@@ -40,102 +40,85 @@ GridChoice snapped(const TetInput& input, int lowest, int highest, Progress& pro
     std::iota(valid.triangle_source.begin(), valid.triangle_source.end(), 0);
     valid.solid = input.solid;
     if (valid.solid.empty()) valid.solid.assign(input.triangles.size(), 0);
-    // Facets of one solid must not come into contact by snapping; those of several may touch.
-    const auto [least, most] = std::minmax_element(valid.solid.begin(), valid.solid.end());
-    if (*least != *most) valid.counts.facet_contacts = std::numeric_limits<int>::max();
     return choose_grid(input.vertices, valid, lowest, highest, progress);
 }
 
-// The triangles of one solid with the points they use.
-GridSolid part_of(const GridSolid& all, int solid) {
-    GridSolid part;
-    part.grid = all.grid;
-    std::vector<int> place(all.points.size(), -1);
-    for (std::size_t t = 0; t < all.triangles.size(); ++t) {
-        if (all.solid[t] != solid) continue;
-        Triangle own = all.triangles[t];
-        for (int& v : own) {
-            int& p = place[index(v)];
-            if (p < 0) {
-                p = static_cast<int>(part.points.size());
-                part.points.push_back(all.points[index(v)]);
-                part.point_source.push_back(all.point_source[index(v)]);
-            }
-            v = p;
-        }
-        part.triangles.push_back(own);
-        part.triangle_source.push_back(all.triangle_source[t]);
-        part.solid.push_back(solid);
-    }
-    return part;
-}
-
-class Joiner {
+// Tries grids from the coarsest until the solid fits into the assembly.
+class SolidMesher {
   public:
-    explicit Joiner(bool several) : several_(several) {}
+    SolidMesher(const TetOptions& options, StageClock& clock, Progress& progress)
+        : options_(options), clock_(clock), progress_(progress) {}
 
-    void add(SolidTets part, const GridSolid& grid) {
-        std::vector<int> place(part.points.size());
-        for (std::size_t p = 0; p < place.size(); ++p)
-            place[p] = point_of(part.points[p], part.point_source[p]);
-        const auto placed = [&](auto ids) {
-            for (int& p : ids) p = place[index(p)];
-            return ids;
-        };
-        for (const auto& tet : part.mesh.tets) result_.tets.push_back(placed(tet));
-        result_.tet_solid.insert(result_.tet_solid.end(), part.mesh.tet_solid.begin(),
-                                 part.mesh.tet_solid.end());
-        for (const Triangle& t : part.mesh.skin) result_.skin.push_back(placed(t));
-        for (const int t : part.mesh.skin_source)
-            result_.skin_source.push_back(grid.triangle_source[index(t)]);
-        result_.report.solids.push_back(std::move(part.report));
-        last_of_part_ = static_cast<int>(result_.points.size());
+    void add(int solid, Assembly& assembly) {
+        const SolidSurface surface = assembly.surface_of(solid);
+        std::vector<std::string> failures;
+        const int lowest = options_.grid_bits ? options_.grid_bits : kCoarsestBits;
+        const int highest = options_.grid_bits ? options_.grid_bits : kFinestBits;
+        for (int bits = lowest;;) {
+            GridChoice choice = grid_for_solid(surface, bits, highest, failures);
+            const int used = choice.solid.grid.bits;
+            const auto give_up_or_refine = [&](const char* what) {
+                failures.push_back("grid of 2^" + std::to_string(used) + ": " + what);
+                if (used + 2 > highest) throw;
+                bits = used + 2;
+            };
+            try {
+                SolidTets tets = mesh(surface, choice.solid, solid);
+                std::vector<std::string>& repairs = tets.report.repairs;
+                repairs.insert(repairs.begin(), failures.begin(), failures.end());
+                assembly.add(surface, std::move(tets), choice.solid);
+                note(choice);
+                return;
+            } catch (const VerificationFailed& e) {
+                give_up_or_refine(e.what());
+            } catch (const InvalidSolid& e) {
+                give_up_or_refine(e.what());
+            }
+        }
     }
 
-    TetResult take() { return std::move(result_); }
+    SnapReport snap;
+    std::vector<int> rejected_grids;
 
   private:
-    // Nodes are shared between solids, never within one.
-    int point_of(const Vec3d& point, int source) {
-        const int next = static_cast<int>(result_.points.size());
-        if (several_) {
-            const auto [place, fresh] = known_.try_emplace(point, next);
-            if (!fresh && place->second < last_of_part_) {
-                ++result_.report.shared_points;
-                int& kept = result_.point_source[index(place->second)];
-                if (kept < 0) kept = source;
-                return place->second;
-            }
+    GridChoice grid_for_solid(const SolidSurface& surface, int lowest, int highest,
+                              const std::vector<std::string>& failures) {
+        try {
+            const StageClock::Scope scope(clock_, "snap");
+            return snapped(surface.input, lowest, highest, progress_);
+        } catch (const InvalidSolid&) {
+            // A finer grid that is worse is no reason to call the solid invalid.
+            if (failures.empty()) throw;
+            throw VerificationFailed(failures.back());
         }
-        result_.points.push_back(point);
-        result_.point_source.push_back(source);
-        return next;
     }
 
-    bool several_;
-    int last_of_part_ = 0;
-    std::map<Vec3d, int> known_;
-    TetResult result_;
+    SolidTets mesh(const SolidSurface& surface, const GridSolid& grid, int solid) {
+        std::vector<int> faces;
+        if (!surface.input.face.empty())
+            for (const int t : grid.triangle_source) faces.push_back(surface.input.face[index(t)]);
+        return tetrahedralize_solid({surface.input, grid, faces, solid}, options_, clock_,
+                                    progress_);
+    }
+
+    void note(const GridChoice& choice) {
+        snap.merged_points += choice.report.merged_points;
+        snap.dropped_triangles += choice.report.dropped_triangles;
+        snap.flipped_edges += choice.report.flipped_edges;
+        rejected_grids.insert(rejected_grids.end(), choice.rejected.begin(), choice.rejected.end());
+    }
+
+    const TetOptions& options_;
+    StageClock& clock_;
+    Progress& progress_;
 };
 
-TetResult on_one_grid(const TetInput& input, const TetOptions& options, GridChoice choice,
-                      StageClock& clock, Progress& progress) {
-    std::vector<int> solids = choice.solid.solid;
+std::vector<int> solids_of(const TetInput& input) {
+    std::vector<int> solids = input.solid;
+    if (solids.empty()) solids.push_back(0);
     std::sort(solids.begin(), solids.end());
     solids.erase(std::unique(solids.begin(), solids.end()), solids.end());
-    Joiner joiner(solids.size() > 1);
-    for (const int solid : solids) {
-        const GridSolid part = part_of(choice.solid, solid);
-        std::vector<int> faces;
-        if (!input.face.empty())
-            for (const int t : part.triangle_source) faces.push_back(input.face[index(t)]);
-        joiner.add(tetrahedralize_solid({input, part, faces, solid}, options, clock, progress),
-                   part);
-    }
-    TetResult result = joiner.take();
-    result.report.snap = choice.report;
-    result.report.rejected_grids = choice.rejected;
-    return result;
+    return solids;
 }
 
 }  // namespace
@@ -143,38 +126,21 @@ TetResult on_one_grid(const TetInput& input, const TetOptions& options, GridChoi
 TetResult tetrahedralize(const TetInput& input, const TetOptions& options, Progress& progress) {
     expect_ids(input);
     StageClock clock;
-    std::vector<std::string> failures;
-    const int lowest = options.grid_bits ? options.grid_bits : kCoarsestBits;
-    const int highest = options.grid_bits ? options.grid_bits : kFinestBits;
-    for (int bits = lowest;;) {
-        GridChoice choice;
-        try {
-            const StageClock::Scope scope(clock, "snap");
-            choice = snapped(input, bits, highest, progress);
-        } catch (const InvalidSolid&) {
-            // A finer grid that is worse is no reason to call the solid invalid.
-            if (failures.empty()) throw;
-            throw VerificationFailed(failures.back());
-        }
-        const int used = choice.solid.grid.bits;
-        const auto give_up_or_refine = [&](const char* what) {
-            failures.push_back("grid of 2^" + std::to_string(used) + ": " + what);
-            if (used + 2 > highest) throw;
-            bits = used + 2;
-        };
-        try {
-            TetResult result = on_one_grid(input, options, std::move(choice), clock, progress);
-            for (SolidReport& solid : result.report.solids)
-                solid.repairs.insert(solid.repairs.begin(), failures.begin(), failures.end());
-            result.report.seconds = clock.seconds;
-            result.report.quality = tet_quality(result.points, result.tets);
-            return result;
-        } catch (const VerificationFailed& e) {
-            give_up_or_refine(e.what());
-        } catch (const InvalidSolid& e) {
-            give_up_or_refine(e.what());
-        }
-    }
+    const auto imprinted = [&] {
+        const StageClock::Scope scope(clock, "contacts");
+        return imprint_contacts(input, progress);
+    };
+    Assembly assembly(imprinted());
+    SolidMesher mesher(options, clock, progress);
+    for (const int solid : solids_of(input)) mesher.add(solid, assembly);
+    TetResult result = assembly.take(input.vertices.size());
+    result.report.snap.merged_points += mesher.snap.merged_points;
+    result.report.snap.dropped_triangles = mesher.snap.dropped_triangles;
+    result.report.snap.flipped_edges = mesher.snap.flipped_edges;
+    result.report.rejected_grids = std::move(mesher.rejected_grids);
+    result.report.seconds = clock.seconds;
+    result.report.quality = tet_quality(result.points, result.tets);
+    return result;
 }
 
 }  // namespace tetra

@@ -5,7 +5,9 @@
 #include <algorithm>
 #include <exception>
 
+#include "cell_tets.h"
 #include "tetra/assemble/emit_cups.h"
+#include "tetra/solid/conform_contacts.h"
 
 namespace tetra {
 namespace {
@@ -32,6 +34,7 @@ int most_imperfect(const GridSolid& solid) {
     return size < 10000 ? 20 : (size < 100000 ? 6 : 2);
 }
 constexpr int kOtherSeeds = 10;
+constexpr std::size_t kPlaneChoices = 3;
 
 class SolidWorker {
   public:
@@ -63,8 +66,15 @@ class SolidWorker {
     }
 
   private:
+    bool by_cells() const { return options_.method == TetMethod::bajaj_dey; }
+
     // Pulling everything needs no direction; when nothing remains, no direction is needed at all.
     void prepare() {
+        if (by_cells()) {
+            frames_.resize(kPlaneChoices);
+            for (FenceDirection& frame : frames_) frame.name = "none needed";
+            return;
+        }
         if (options_.pull_off != PullPolicy::off) {
             const StageClock::Scope scope(clock_, "pull_off");
             everything_ =
@@ -104,6 +114,7 @@ class SolidWorker {
 
     std::string name_of(const Attempt& a) const {
         std::string name = "direction " + frames_[a.frame].name;
+        if (by_cells()) name = "choice of planes " + std::to_string(a.frame);
         if (a.pull == PullPolicy::off) name += ", no pull-off";
         if (a.compact == CompactLevel::none) name += ", not compacted";
         if (a.other_seed > 0) name += ", other seed";
@@ -138,7 +149,7 @@ class SolidWorker {
         const FenceDirection& frame = frames_[a.frame];
         report_.direction = frame.name;
         SolidTets result;
-        result.mesh = raw_mesh(frame, a.pull);
+        result.mesh = by_cells() ? mesh_of_cells(a.frame) : raw_mesh(frame, a.pull);
         {
             const StageClock::Scope scope(clock_, "compact");
             CompactOptions compact_options = options_.compact;
@@ -164,6 +175,37 @@ class SolidWorker {
         check(result, facets);
         result.report = report_;
         return result;
+    }
+
+    // As for cells: common vertices on both sides of every contact help where facets of one solid
+    // touch.
+    Polyhedra cut_cells(const CellsOptions& options, CellsStats& stats) const {
+        try {
+            return exact_cells(input_.grid, options, stats, progress_);
+        } catch (const VerificationFailed&) {
+            return exact_cells(conform_contacts(input_.grid), options, stats, progress_);
+        }
+    }
+
+    // Cells by another choice among equally good planes each time.
+    const ExactMesh& mesh_of_cells(std::size_t choice) {
+        if (cells_mesh_ && cells_choice_ == choice) return *cells_mesh_;
+        Polyhedra cells;
+        CellsStats stats;
+        {
+            const StageClock::Scope scope(clock_, "notch_cutting");
+            CellsOptions cut;
+            cut.seed = choice;
+            cells = cut_cells(cut, stats);
+        }
+        const StageClock::Scope scope(clock_, "overlay");
+        CellTetCounts counts{stats.notches, stats.planes, stats.cuts, stats.raw_cells, 0, 0, 0};
+        cells_mesh_ =
+            tets_of_cells(input_.grid, owners_, {cells}, {input_.solid}, counts, progress_);
+        cells_choice_ = choice;
+        report_.cells = counts;
+        report_.pulled = "none";
+        return *cells_mesh_;
     }
 
     ExactMesh raw_mesh(const FenceDirection& frame, PullPolicy policy) {
@@ -250,6 +292,8 @@ class SolidWorker {
     std::vector<FenceDirection> frames_;
     PullOff everything_;
     bool consumed_ = false;
+    std::optional<ExactMesh> cells_mesh_;
+    std::size_t cells_choice_ = 0;
     SolidReport report_;  // of the attempt under way
     std::exception_ptr last_failure_;
     std::optional<SolidTets> best_;

@@ -2,6 +2,8 @@
 // Construction, comparison and evaluation of homogeneous points.
 #include "tetra/exact/hpoint.h"
 
+#include <cmath>
+
 namespace tetra {
 namespace {
 
@@ -26,9 +28,24 @@ std::uint64_t reduce(UInt128 v) {
     return r;
 }
 
+constexpr int kFraction = 62;  // binary places of points from doubles
+
+// value * 2^kFraction, cut off.
+Int256 scaled(double value) {
+    const double whole = std::floor(value);
+    const auto part = static_cast<std::int64_t>(std::ldexp(value - whole, kFraction));
+    return Int256(static_cast<Int128>(static_cast<std::int64_t>(whole)) << kFraction) +
+           Int256(part);
+}
+
 }  // namespace
 
 HPoint hpoint(const Vec3i& point) { return {point[0], point[1], point[2], 1}; }
+
+HPoint hpoint_from(const Vec3d& point) {
+    return {scaled(point[0]), scaled(point[1]), scaled(point[2]),
+            Int256(static_cast<Int128>(1) << kFraction)};
+}
 
 HPoint meet(const Vec3i& u, const Vec3i& v, Int128 su, Int128 sv) {
     if (sv < su) {

@@ -4,8 +4,8 @@
 
 #include <algorithm>
 #include <cassert>
+#include <optional>
 
-#include "cone_point.h"
 #include "tetra/errors.h"
 
 namespace tetra::fence {
@@ -19,8 +19,13 @@ struct Corner {
 
 class Builder {
   public:
-    Builder(const Plan& plan, const Walls& walls, const Joints& joints, const Bases& bases)
-        : plan_(plan), walls_(walls), joints_(joints), bases_(bases) {}
+    Builder(const Plan& plan, const Walls& walls, const Joints& joints, const Bases& bases,
+            const ConePointFinder& find_cone_point)
+        : plan_(plan),
+          walls_(walls),
+          joints_(joints),
+          bases_(bases),
+          find_cone_point_(find_cone_point) {}
 
     Columns run(Progress& progress) {
         const auto n = static_cast<double>(bases_.bases.size());
@@ -34,15 +39,72 @@ class Builder {
   private:
     void build_base(const Base& base) {
         base_ = &base;
-        for (const PlanarTriangle& t : triangulate_base(plan_, bases_, base)) {
+        const std::vector<PlanarTriangle> triangles = triangulate_base(plan_, bases_, base);
+        const int failed = fill_base(triangles);
+        if (failed < 0) return;
+        for (std::size_t k = 0; k < 3; ++k)
+            if (const auto other = flipped(triangles, failed, k); other && fill_base(*other) < 0)
+                return;
+        throw VerificationFailed(
+            "a column of the fence-off is too thin to hold a point; try another direction or "
+            "a coarser grid (near triangle " +
+            std::to_string(at(plan_.facets, base.floor).triangle) + ")");
+    }
+
+    // The first triangle whose column can't be filled, or -1 when all are.
+    int fill_base(const std::vector<PlanarTriangle>& triangles) {
+        const Sizes before = sizes();
+        for (std::size_t i = 0; i < triangles.size(); ++i) {
+            const PlanarTriangle& t = triangles[i];
             ++out_.base_triangles;
             for (std::size_t k = 0; k < 3; ++k) {
-                corner_[k] = {t[k], joints_.mark_of(t[k], base.floor),
-                              joints_.mark_of(t[k], base.ceiling)};
+                corner_[k] = {t[k], joints_.mark_of(t[k], base_->floor),
+                              joints_.mark_of(t[k], base_->ceiling)};
                 edge_[k] = edge_between(t[k], t[(k + 1) % 3]);
             }
-            build_column();
+            if (build_column()) continue;
+            go_back_to(before);
+            return static_cast<int>(i);
         }
+        return -1;
+    }
+
+    // With the edge from corner k of triangle t exchanged, if it is an inner edge of a strictly
+    // convex quadrilateral.
+    std::optional<std::vector<PlanarTriangle>> flipped(std::vector<PlanarTriangle> triangles, int t,
+                                                       std::size_t k) const {
+        PlanarTriangle& one = at(triangles, t);
+        const int a = one[k], b = one[(k + 1) % 3], c = one[(k + 2) % 3];
+        for (PlanarTriangle& other : triangles)
+            for (std::size_t i = 0; i < 3; ++i) {
+                if (other[i] != b || other[(i + 1) % 3] != a) continue;
+                const int d = other[(i + 2) % 3];
+                if (edge_between(a, b) >= 0 || edge_between(b, a) >= 0 ||
+                    plan_.points.orient(c, a, d) <= 0 || plan_.points.orient(d, b, c) <= 0)
+                    return std::nullopt;
+                one = {c, a, d};
+                other = {c, d, b};
+                return triangles;
+            }
+        return std::nullopt;
+    }
+
+    struct Sizes {
+        std::size_t tets, cone_points, skin, walls;
+        int base_triangles, cyclic;
+    };
+    Sizes sizes() const {
+        return {out_.tets.size(),  out_.cone_points.size(), out_.skin.size(),
+                out_.walls.size(), out_.base_triangles,     out_.cyclic};
+    }
+    void go_back_to(const Sizes& s) {
+        out_.tets.resize(s.tets);
+        out_.cone_points.resize(s.cone_points);
+        out_.skin.resize(s.skin);
+        out_.skin_facet.resize(s.skin);
+        out_.walls.resize(s.walls);
+        out_.base_triangles = s.base_triangles;
+        out_.cyclic = s.cyclic;
     }
 
     // The base edge from -> to, or -1 for a diagonal.
@@ -99,7 +161,8 @@ class Builder {
         return true;
     }
 
-    void build_column() {
+    // False when it needs a cone point that can't be found.
+    bool build_column() {
         find_chain_marks();
         const std::size_t tets_before = out_.tets.size();
         for (std::size_t c = 0; c < 3; ++c) now_[c] = corner_[c].low;
@@ -108,8 +171,7 @@ class Builder {
             while (c < 3 && !may_advance(c)) ++c;
             if (c == 3) {
                 out_.tets.resize(tets_before);
-                build_cone();
-                return;
+                return build_cone();
             }
             out_.tets.push_back({now_[0], now_[1], now_[2], now_[c] + 1});
             ++now_[c];
@@ -120,6 +182,7 @@ class Builder {
                 for_each_wall_triangle(k, [&](const std::array<int, 3>& t) {
                     out_.walls.push_back({t, edge_[k]});
                 });
+        return true;
     }
 
     bool finished() const {
@@ -153,16 +216,12 @@ class Builder {
     }
 
     // Rule R11: the column is convex, any point inside sees all of its boundary.
-    void build_cone() {
+    bool build_cone() {
         ++out_.cyclic;
         const std::array points{corner_[0].point, corner_[1].point, corner_[2].point};
         const std::optional<HPoint> inside =
-            point_in_column(plan_, points, base_->floor, base_->ceiling);
-        if (!inside)
-            throw VerificationFailed(
-                "a column of the fence-off is too thin to hold a point; try another direction or "
-                "a coarser grid (near triangle " +
-                std::to_string(at(plan_.facets, base_->floor).triangle) + ")");
+            find_cone_point_(plan_, points, base_->floor, base_->ceiling);
+        if (!inside) return false;
         const int apex = static_cast<int>(joints_.marks.size() + out_.cone_points.size());
         out_.cone_points.push_back(*inside);
         const auto add = [&](const std::array<int, 3>& t) {
@@ -176,12 +235,14 @@ class Builder {
                 add(t);
                 if (edge_[k] >= 0) out_.walls.push_back({t, edge_[k]});
             });
+        return true;
     }
 
     const Plan& plan_;
     const Walls& walls_;
     const Joints& joints_;
     const Bases& bases_;
+    const ConePointFinder& find_cone_point_;
     Columns out_;
     std::size_t done_ = 0;
 
@@ -194,8 +255,9 @@ class Builder {
 }  // namespace
 
 Columns build_columns(const Plan& plan, const Walls& walls, const Joints& joints,
-                      const Bases& bases, Progress& progress) {
-    return Builder(plan, walls, joints, bases).run(progress);
+                      const Bases& bases, Progress& progress,
+                      const ConePointFinder& find_cone_point) {
+    return Builder(plan, walls, joints, bases, find_cone_point).run(progress);
 }
 
 }  // namespace tetra::fence

@@ -2,7 +2,10 @@
 // Tetrahedra of the columns over base triangles, by staircases or a cone (rules R9 to R11).
 #pragma once
 
+#include <functional>
+
 #include "bases.h"
+#include "cone_point.h"
 
 namespace tetra::fence {
 
@@ -23,8 +26,14 @@ struct Columns {
     int cyclic = 0;
 };
 
-// \throw InvalidSolid, VerificationFailed, Cancelled.
+// As point_in_column; tests put in one that finds less.
+using ConePointFinder = std::function<std::optional<HPoint>(
+    const Plan& plan, const std::array<int, 3>& base, int floor, int ceiling)>;
+
+// \throw InvalidSolid, Cancelled; VerificationFailed when a cyclic column has no cone point, and
+//        no flip of an inner edge of its base helps.
 Columns build_columns(const Plan& plan, const Walls& walls, const Joints& joints,
-                      const Bases& bases, Progress& progress);
+                      const Bases& bases, Progress& progress,
+                      const ConePointFinder& find_cone_point = point_in_column);
 
 }  // namespace tetra::fence

@@ -2,24 +2,8 @@
 // Tries doubles at a few barycentric weights and accepts by exact signs.
 #include "cone_point.h"
 
-#include <cmath>
-
 namespace tetra::fence {
 namespace {
-
-constexpr int kFraction = 62;  // binary places of a candidate's coordinates
-
-// value * 2^kFraction, |value| <= 2^27; the double is made a multiple of 2^-kFraction first.
-Int256 scaled(double value) {
-    const double whole = std::floor(value);
-    const auto part = static_cast<std::int64_t>(std::ldexp(value - whole, kFraction));
-    return Int256(static_cast<Int128>(static_cast<std::int64_t>(whole)) << kFraction) +
-           Int256(part);
-}
-
-HPoint candidate(double x, double y, double z) {
-    return {scaled(x), scaled(y), scaled(z), Int256(static_cast<Int128>(1) << kFraction)};
-}
 
 int turn(const PlanPoint& p, const PlanPoint& q, const HPoint& r) {
     const auto minor = [](const Int256& a, const Int256& b, const Int256& c, const Int256& d) {
@@ -47,7 +31,7 @@ std::optional<HPoint> point_in_column(const Plan& plan, const std::array<int, 3>
                 p.x = c.x + (u * (a.x - c.x) + v * (b.x - c.x));
                 p.y = c.y + (u * (a.y - c.y) + v * (b.y - c.y));
                 const double z = (height(below, p).z + height(over, p).z) / 2;
-                const HPoint q = candidate(p.x, p.y, z);
+                const HPoint q = hpoint_from({p.x, p.y, z});
                 if (turn(a, b, q) > 0 && turn(b, c, q) > 0 && turn(c, a, q) > 0 &&
                     above(below, q) > 0 && above(over, q) < 0)
                     return q;

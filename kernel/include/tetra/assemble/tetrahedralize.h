@@ -17,10 +17,15 @@
 
 namespace tetra {
 
+// chazelle_palios: pull-off and fences; bajaj_dey: the convex cells of notch cutting, overlaid.
+enum class TetMethod { chazelle_palios, bajaj_dey };
+
 // automatic: PULLOFF A1, the state with fewest crossings; on: the paper's; off: none.
 enum class PullPolicy { automatic, on, off };
 
+// `direction`, `candidates` and `pull_off` are of chazelle_palios only.
 struct TetOptions {
+    TetMethod method = TetMethod::chazelle_palios;
     std::optional<Vec3d> direction;  // of the fences; none = rate the axes and the candidates
     std::vector<Vec3d> candidates;   // e.g. normals of planar faces, axes of cylinders
     PullPolicy pull_off = PullPolicy::automatic;
@@ -45,6 +50,17 @@ struct DirectionTrial {
     std::string note;
 };
 
+// What notch cutting and the overlay of its cells did.
+struct CellTetCounts {
+    int notches = 0;
+    int planes = 0;  // that cover the notches
+    int cuts = 0;
+    int raw_cells = 0;  // before merging
+    int cells = 0;
+    int pieces = 0;      // common parts of two facets, one from each side of a plane
+    int cone_cells = 0;  // cells that needed a point of their own
+};
+
 // What was done with one solid, and with how much luck.
 struct SolidReport {
     int solid = 0;
@@ -56,6 +72,7 @@ struct SolidReport {
     PullStatistics pull;
     int cup_tets = 0;  // before the fences divide their domes
     FenceCounts fences;
+    CellTetCounts cells;  // of bajaj_dey
     CompactStats compact;
     RestoreStats restore;
     MeshCheck check;
@@ -68,7 +85,8 @@ struct TetReport {
     SnapReport snap;
     std::vector<SolidReport> solids;
     TetQuality quality;
-    int shared_points = 0;  // nodes that solids have in common
+    int shared_points = 0;   // nodes that solids have in common
+    int contact_points = 0;  // put into finished meshes, where a later solid needed them
 };
 
 // tets have det(b-a, c-a, d-a) > 0 in doubles; skin triangles face outward.
@@ -79,12 +97,14 @@ struct TetResult {
     std::vector<int> tet_solid;
     std::vector<Triangle> skin;
     std::vector<int> skin_source;  // a caller's triangle of the same plane and face
+    std::vector<int> skin_twin;    // where two solids touch: the other's skin triangle, else -1
     TetReport report;
 };
 
 // Snap, pull-off, fence-off, emission, compaction, restoring and the kernel's own check, for each
 // solid; solids then share nodes at equal places. On failure other directions, no pull-off, other
-// grids and no compaction are tried, in this order.
+// grids and no compaction are tried, in this order. Where two solids touch in a plane, both sides
+// get the same triangles (imprint_contacts.h): each is in the skin twice, once for each solid.
 //
 // \throw InvalidSolid when the surface can't be put on a grid; VerificationFailed when every
 //        attempt failed; Cancelled.

@@ -13,6 +13,9 @@ struct HPoint {
 
 HPoint hpoint(const Vec3i& point);
 
+// The doubles cut off after 62 binary places; |coordinates| < 2^62.
+HPoint hpoint_from(const Vec3d& point);
+
 // Where the line u-v meets the plane; su, sv = plane_value at u and v, which must differ.
 HPoint meet(const Vec3i& u, const Vec3i& v, Int128 su, Int128 sv);
 
