@@ -21,7 +21,9 @@ FloatArray = npt.NDArray[np.float64]
 IntArray = npt.NDArray[np.int32]
 LongArray = npt.NDArray[np.int64]
 
-__all__ = ["Cell", "ConvexCells", "Defect", "Report", "Solid", "TetMesh", "frozen_array"]
+__all__ = [
+    "Cell", "ConvexCells", "Defect", "Report", "Solid", "Tet10Mesh", "TetMesh", "frozen_array",
+]  # fmt: skip
 
 
 def frozen_array(values: Any, dtype: Any, shape: tuple[int, ...]) -> npt.NDArray[Any]:
@@ -380,3 +382,42 @@ class TetMesh:
         p = self.points[self.tets]
         a, b, c = (p[:, i] - p[:, 0] for i in (1, 2, 3))
         return np.einsum("ij,ij->i", a, np.cross(b, c)) / 6.0
+
+
+@dataclass(frozen=True, eq=False)
+class Tet10Mesh:
+    """A tetrahedron mesh of second order, whose sides and edges may be curved.
+
+    Attributes
+    ----------
+    points : (p, 3) float64
+        The corners, numbered as in the straight mesh, then the nodes in the middle of edges.
+    tets : (t, 10) int32
+        Corners, then the middles of 01, 12, 20, 03, 13, 23.
+    skin : (s, 6) int32
+        Corners, counter-clockwise seen from outside, then the middles of 01, 12, 20.
+    skin_face, skin_source, tet_solid, face_names, report
+        As in `TetMesh`.
+    point_source : (p,) int32
+        Input vertex, or -1 for a Steiner point or a middle.
+    """
+
+    points: FloatArray
+    tets: IntArray
+    skin: IntArray
+    skin_face: IntArray
+    skin_source: IntArray
+    tet_solid: IntArray
+    point_source: IntArray
+    face_names: tuple[str, ...] = ()
+    report: Report = field(default_factory=Report)
+
+    def __post_init__(self) -> None:
+        _freeze(self, "points", np.float64, -1, 3)
+        _freeze(self, "tets", np.int32, -1, 10)
+        _freeze(self, "skin", np.int32, -1, 6)
+        for name in ("skin_face", "skin_source", "tet_solid", "point_source"):
+            _freeze(self, name, np.int32, -1)
+
+    def __len__(self) -> int:
+        return len(self.tets)
