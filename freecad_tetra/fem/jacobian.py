@@ -92,5 +92,10 @@ def least_coefficient(values: FloatArray) -> FloatArray:
 def straight_determinants(corners: Any) -> FloatArray:
     """Return six times the volume of straight tetrahedra, (t,); `corners` (t, 4 or 10, 3)."""
     p = np.asarray(corners, float)
-    a, b, c = (p[:, i] - p[:, 0] for i in (1, 2, 3))
-    return np.einsum("ij,ij->i", a, np.cross(b, c))
+    e = p[:, 1:4] - p[:, :1]
+    a, b, c = e[:, 0], e[:, 1], e[:, 2]
+    return (
+        a[:, 0] * (b[:, 1] * c[:, 2] - b[:, 2] * c[:, 1])
+        + a[:, 1] * (b[:, 2] * c[:, 0] - b[:, 0] * c[:, 2])
+        + a[:, 2] * (b[:, 0] * c[:, 1] - b[:, 1] * c[:, 0])
+    )

@@ -22,9 +22,9 @@ RATIO_BOUNDS = (1e-6, 1e-4, 1e-3, 1e-2, 0.05, 0.1, 0.2, 0.4, 0.7)
 JACOBIAN_BOUNDS = (0.0, 1e-3, 1e-2, 0.05, 0.1, 0.2, 0.3, 0.4, 0.5, 0.6, 0.7, 0.8, 0.9)
 GOOD_DIHEDRAL = 8.0  # degrees; below it stresses beside the element are not to be trusted
 
-_SIDES = ((1, 2, 3), (0, 3, 2), (0, 1, 3), (0, 2, 1))
+_SIDES = np.array([(1, 2, 3), (0, 3, 2), (0, 1, 3), (0, 2, 1)])
 # Edges that the sides i and j share, in the order of `dihedral_angles`.
-_PAIRS = ((0, 1), (0, 2), (0, 3), (1, 2), (1, 3), (2, 3))
+_PAIRS = np.array([(0, 1), (0, 2), (0, 3), (1, 2), (1, 3), (2, 3)])
 
 
 @dataclass(frozen=True, eq=False)
@@ -133,16 +133,22 @@ def dihedral_angles(corners: Any) -> FloatArray:
 
     Column k is the angle at the edge opposite to that of the k-th pair of 01 02 03 12 13 23.
     """
-    normals = []
-    for a, b, c in _SIDES:
-        n = np.cross(corners[:, b] - corners[:, a], corners[:, c] - corners[:, a])
-        normals.append(n)
-    columns = []
-    for i, j in _PAIRS:
-        # The arctangent keeps small angles, which an arccosine of a rounded product loses.
-        sine = np.linalg.norm(np.cross(normals[i], normals[j]), axis=1)
-        columns.append(np.arctan2(sine, -np.einsum("ij,ij->i", normals[i], normals[j])))
-    return np.stack(columns, axis=1)
+    p = np.asarray(corners, float)
+    first = p[:, _SIDES[:, 0]]
+    normals = cross(p[:, _SIDES[:, 1]] - first, p[:, _SIDES[:, 2]] - first)
+    a, b = normals[:, _PAIRS[:, 0]], normals[:, _PAIRS[:, 1]]
+    # The arctangent keeps small angles, which an arccosine of a rounded product loses.
+    sine = np.sqrt(np.square(cross(a, b)).sum(axis=2))
+    angles: FloatArray = np.arctan2(sine, -(a * b).sum(axis=2))
+    return angles
+
+
+def cross(a: FloatArray, b: FloatArray) -> FloatArray:
+    """Return the vector products along the last axis; numpy's own costs more on short arrays."""
+    out = np.empty_like(a)
+    for i, j, k in ((0, 1, 2), (1, 2, 0), (2, 0, 1)):
+        out[..., i] = a[..., j] * b[..., k] - a[..., k] * b[..., j]
+    return out
 
 
 def _extreme_angles(corners: Any) -> tuple[FloatArray, FloatArray]:
@@ -153,7 +159,7 @@ def _extreme_angles(corners: Any) -> tuple[FloatArray, FloatArray]:
 def mean_ratio(corners: Any) -> FloatArray:
     """Return 12 (3 V)^(2/3) / sum of squared edges with the sign of V, (t,)."""
     six = jacobian.straight_determinants(corners)
-    squares = sum(np.square(corners[:, j] - corners[:, i]).sum(axis=1) for i, j in _PAIRS)
+    squares = np.square(corners[:, _PAIRS[:, 1]] - corners[:, _PAIRS[:, 0]]).sum(axis=(1, 2))
     root = np.cbrt(np.abs(six) / 2)
     ratio: FloatArray = np.sign(six) * 12 * root**2 / np.where(squares > 0, squares, np.inf)
     return ratio
@@ -161,12 +167,7 @@ def mean_ratio(corners: Any) -> FloatArray:
 
 def _longest_product(corners: Any) -> FloatArray:
     """Return the largest product of the three squared edges at a corner, (t,)."""
-    squares = {
-        pair: np.square(corners[:, pair[1]] - corners[:, pair[0]]).sum(axis=1) for pair in _PAIRS
-    }
-    products = []
-    for v in range(4):
-        factors = [squares[pair] for pair in _PAIRS if v in pair]
-        products.append(factors[0] * factors[1] * factors[2])
+    squares = np.square(corners[:, _PAIRS[:, 1]] - corners[:, _PAIRS[:, 0]]).sum(axis=2)
+    products = [squares[:, (_PAIRS == v).any(axis=1)].prod(axis=1) for v in range(4)]
     longest: FloatArray = np.max(products, axis=0)
     return longest
