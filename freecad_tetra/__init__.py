@@ -12,6 +12,7 @@ from freecad_tetra._version import __version__
 from freecad_tetra.api import (
     as_solid,
     convex_cells,
+    fem_mesh,
     place_guards,
     tetrahedralize,
     triangulate_polygon,
@@ -30,7 +31,7 @@ from freecad_tetra.errors import (
     UnsupportedFormat,
     VerificationFailed,
 )
-from freecad_tetra.model import Cell, ConvexCells, Report, Solid, TetMesh
+from freecad_tetra.model import Cell, ConvexCells, Report, Solid, Tet10Mesh, TetMesh
 
 __all__ = [
     "Cancelled",
@@ -43,6 +44,7 @@ __all__ = [
     "MissingDependency",
     "Report",
     "Solid",
+    "Tet10Mesh",
     "TetMesh",
     "TetraError",
     "UnreadableFile",
@@ -51,6 +53,7 @@ __all__ = [
     "__version__",
     "as_solid",
     "convex_cells",
+    "fem_mesh",
     "place_guards",
     "tetrahedralize",
     "triangulate_polygon",

@@ -7,13 +7,14 @@ Everything optional (OCP, trimesh, the kernel) is imported by the call that need
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from os import PathLike, fspath
 from pathlib import Path
 from typing import Any
 
 from freecad_tetra import brep, directions, kernel
 from freecad_tetra.errors import (
+    BadOption,
     Cancelled,
     Defect,
     InvalidSolid,
@@ -21,7 +22,7 @@ from freecad_tetra.errors import (
     UnsupportedFormat,
 )
 from freecad_tetra.kernel import Progress, Validation
-from freecad_tetra.model import ConvexCells, IntArray, Solid, TetMesh
+from freecad_tetra.model import ConvexCells, IntArray, Solid, Tet10Mesh, TetMesh
 
 # A tessellation whose volume strays more than this from the B-rep's is made finer.
 VOLUME_SHARE = 0.01
@@ -149,6 +150,7 @@ def tetrahedralize(
     direction: str | Sequence[int] = "auto",
     pull_off: str = "auto",
     compact: str = "default",
+    improve: bool = False,
     progress: Progress | None = None,
     **reading: Any,
 ) -> TetMesh:
@@ -168,6 +170,8 @@ def tetrahedralize(
         Direction of the fences; of chazelle-palios only, as `pull_off`.
     pull_off : {"auto", "on", "off"}
     compact : {"default", "max", "off"}
+    improve : bool
+        Better the shape of the worst tetrahedra by flips; they get a few more.
     progress : callable, optional
     **reading
         Deflections and `solid` as in `as_solid`.
@@ -180,10 +184,70 @@ def tetrahedralize(
     axis = direction if isinstance(direction, str) else [int(i) for i in direction]
     found = validate(source, progress=progress, **reading)
     options: dict[str, Any] = {"method": method, "direction": axis}
-    options.update(pull_off=pull_off, compact=compact)
+    options.update(pull_off=pull_off, compact=compact, quality=improve)
     if isinstance(axis, str) and axis == "auto" and not found.defects:
         options["directions"] = directions.candidates(found.surface())
     return kernel.tetrahedralize(found, options, progress)
+
+
+def fem_mesh(
+    source: Any,
+    *,
+    order: int = 2,
+    quality: bool = False,
+    size: float | None = None,
+    chord: float | None = None,
+    turn: float = 0.0,
+    face_sizes: Mapping[str, float] | None = None,
+    refine: int = 0,
+    progress: Progress | None = None,
+    **options: Any,
+) -> TetMesh | Tet10Mesh:
+    """Mesh a solid for analysis; boundary nodes lie on the B-rep, quality is in the report.
+
+    Parameters
+    ----------
+    source : see `as_solid`
+        A `Validation` has forgotten its B-rep: its nodes stay on the facets.
+    order : {1, 2}
+        Straight tetrahedra, or curved ones with a node amid every edge.
+    quality : bool
+        Rebuild the elements by the optional program mmg3d.
+    size, chord, turn, face_sizes
+        For `quality`, see `freecad_tetra.fem.remesh.Sizes`; faces by name, such as ``Face3``.
+    refine : int
+        How often every element is divided into eight.
+    progress : callable, optional
+    **options
+        Those of `tetrahedralize`.
+
+    Raises
+    ------
+    BadOption, MissingDependency, RemeshingFailed
+        and the errors of `tetrahedralize`.
+    """
+    from freecad_tetra.fem.prepare import FemOptions, prepare
+    from freecad_tetra.fem.remesh import Sizes
+
+    shape, _ = (None, "") if isinstance(source, Validation) else _shape(source)
+    reading = {name: options.pop(name) for name in _READING if name in options}
+    found = validate(source if shape is None else shape, progress=progress, **reading)
+    mesh = tetrahedralize(found, progress=progress, **{"improve": True, **options})
+    faces = _face_numbers(mesh, face_sizes or {})
+    wanted = FemOptions(order, quality, Sizes(size, chord, turn, faces), refine)
+    project = None if shape is None else brep.projector(shape)
+    return prepare(mesh, wanted, project, progress)
+
+
+_READING = ("linear_deflection", "relative_deflection", "angular_deflection", "solid")
+
+
+def _face_numbers(mesh: TetMesh, sizes: Mapping[str, float]) -> dict[int, float]:
+    known = {name: i for i, name in enumerate(mesh.face_names)}
+    lost = [name for name in sizes if name not in known]
+    if lost:
+        raise BadOption(f"there is no face {lost[0]}", f"choose Face1 to Face{len(known)}")
+    return {known[name]: float(value) for name, value in sizes.items()}
 
 
 def triangulate_polygon(points: Any, loops: Sequence[Any] | None = None) -> IntArray:
@@ -239,7 +303,9 @@ def check(
     return verify.check_cells(surface, stored.points, stored.cells, progress)
 
 
-def write(result: ConvexCells | TetMesh | Solid, path: str | PathLike[str], order: int = 1) -> Path:
+def write(
+    result: ConvexCells | TetMesh | Tet10Mesh | Solid, path: str | PathLike[str], order: int = 1
+) -> Path:
     """Write a result to a file, whole or not at all; see `freecad_tetra.export.write`."""
     from freecad_tetra import export
 

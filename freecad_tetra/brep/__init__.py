@@ -132,3 +132,14 @@ def tessellate(
     from freecad_tetra.brep import mesh
 
     return mesh.tessellate(shape, deflection or Deflection(), name, only)
+
+
+def projector(shape: Any) -> Any:
+    """Return a callable that finds nearest points on the faces and edges of a TopoDS_Shape.
+
+    It is a `freecad_tetra.fem.project.Project`; faces are numbered as by `tessellate`.
+    """
+    _require_ocp()
+    from freecad_tetra.brep import project
+
+    return project.Projector(shape)

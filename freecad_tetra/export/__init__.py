@@ -10,7 +10,7 @@ from pathlib import Path
 from typing import Any, BinaryIO
 
 from freecad_tetra.errors import TetraError, UnsupportedFormat
-from freecad_tetra.model import ConvexCells, Solid, TetMesh
+from freecad_tetra.model import ConvexCells, Solid, Tet10Mesh, TetMesh
 
 Writer = Callable[[Any, BinaryIO], None]
 
@@ -19,17 +19,19 @@ TET_SUFFIXES = (".vtu", ".msh", ".msh2", ".inp", ".mesh", ".vtk", ".obj", ".brep
 SURFACE_SUFFIXES = (".off",)
 
 
-def write(result: ConvexCells | TetMesh | Solid, path: str | PathLike[str], order: int = 1) -> Path:
+def write(
+    result: ConvexCells | TetMesh | Tet10Mesh | Solid, path: str | PathLike[str], order: int = 1
+) -> Path:
     """Write a result; the file appears whole or not at all.
 
     Parameters
     ----------
-    result : ConvexCells, TetMesh or Solid
+    result : ConvexCells, TetMesh, Tet10Mesh or Solid
     path : path
         Cells: .obj .vtu .glb .brep .step; tetrahedra: .vtu .msh (4.1) .msh2 (2.2) .inp .mesh
         .vtk .obj (skin) .brep; a Solid: .off.
     order : {1, 2}
-        Nodes per edge of tetrahedra, less one; 2 puts a node in the middle of each edge.
+        Nodes per edge of a TetMesh, less one; 2 puts a node in the middle of each chord.
 
     Raises
     ------
@@ -53,7 +55,8 @@ def writer_for(kind: type, path: str | PathLike[str], order: int = 1) -> Writer:
     UnsupportedFormat
     """
     suffix = Path(path).suffix.lower()
-    wanted = {ConvexCells: CELL_SUFFIXES, TetMesh: TET_SUFFIXES, Solid: SURFACE_SUFFIXES}[kind]
+    wanted = {ConvexCells: CELL_SUFFIXES, TetMesh: TET_SUFFIXES, Solid: SURFACE_SUFFIXES,
+              Tet10Mesh: TET_SUFFIXES}[kind]  # fmt: skip
     if suffix not in wanted:
         raise UnsupportedFormat(
             f"{path}: suffix {suffix or '(none)'} cannot be written for this result",
@@ -61,8 +64,8 @@ def writer_for(kind: type, path: str | PathLike[str], order: int = 1) -> Writer:
         )
     if kind is ConvexCells:
         return _cell_writer(suffix)
-    if kind is TetMesh:
-        return _tet_writer(suffix, order)
+    if kind in (TetMesh, Tet10Mesh):
+        return _tet_writer(suffix, 2 if kind is Tet10Mesh else order)
     from freecad_tetra.export import off
 
     return off.write_surface

@@ -9,7 +9,7 @@ from typing import Any
 import numpy as np
 import numpy.typing as npt
 
-from freecad_tetra.model import FloatArray, TetMesh
+from freecad_tetra.model import FloatArray, Tet10Mesh, TetMesh
 
 LongArray = npt.NDArray[np.int64]
 
@@ -51,11 +51,11 @@ class Elements:
         return 1 if self.tets.shape[1] == 4 else 2
 
 
-def elements(mesh: TetMesh, order: int = 1) -> Elements:
-    """Return the mesh with its groups; `order` 2 adds a node in the middle of every edge."""
+def elements(mesh: TetMesh | Tet10Mesh, order: int = 1) -> Elements:
+    """Return the mesh with its groups; `order` 2 gives a TetMesh a node amid every chord."""
     points, source = mesh.points, mesh.point_source.astype(np.int64)
     tets, skin = mesh.tets.astype(np.int64), mesh.skin.astype(np.int64)
-    if order == 2:
+    if order == 2 and isinstance(mesh, TetMesh):
         points, tets, skin = _second_order(points, tets, skin)
         source = np.concatenate([source, np.full(len(points) - len(source), -1)])
     # Without B-rep faces every input polygon would be a group: one skin serves better.

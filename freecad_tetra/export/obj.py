@@ -8,7 +8,7 @@ from typing import BinaryIO
 import numpy as np
 
 from freecad_tetra.export.text import lines
-from freecad_tetra.model import ConvexCells, TetMesh
+from freecad_tetra.model import ConvexCells, Tet10Mesh, TetMesh
 
 
 def write_cells(cells: ConvexCells, stream: BinaryIO) -> None:
@@ -23,9 +23,9 @@ def write_cells(cells: ConvexCells, stream: BinaryIO) -> None:
         stream.write(f"o cell_{k}\n{''.join(facets)}".encode())
 
 
-def write_skin(mesh: TetMesh, stream: BinaryIO) -> None:
-    """Write the boundary triangles, one group per B-rep face."""
-    used, index = np.unique(mesh.skin, return_inverse=True)
+def write_skin(mesh: TetMesh | Tet10Mesh, stream: BinaryIO) -> None:
+    """Write the boundary as straight triangles, one group per B-rep face."""
+    used, index = np.unique(mesh.skin[:, :3], return_inverse=True)
     triangles = index.reshape(-1, 3) + 1
     stream.write(lines("v %.17g %.17g %.17g", mesh.points[used]))
     if not mesh.face_names:
