@@ -200,6 +200,7 @@ def fem_mesh(
     turn: float = 0.0,
     face_sizes: Mapping[str, float] | None = None,
     refine: int = 0,
+    shape: Any = None,
     progress: Progress | None = None,
     **options: Any,
 ) -> TetMesh | Tet10Mesh:
@@ -208,7 +209,7 @@ def fem_mesh(
     Parameters
     ----------
     source : see `as_solid`
-        A `Validation` has forgotten its B-rep: its nodes stay on the facets.
+        A `Validation` has forgotten its B-rep: pass it as `shape`, or nodes stay on the facets.
     order : {1, 2}
         Straight tetrahedra, or curved ones with a node amid every edge.
     quality : bool
@@ -229,14 +230,21 @@ def fem_mesh(
     from freecad_tetra.fem.prepare import FemOptions, prepare
     from freecad_tetra.fem.remesh import Sizes
 
-    shape, _ = (None, "") if isinstance(source, Validation) else _shape(source)
+    if shape is None and not isinstance(source, Validation):
+        shape = shape_of(source)
     reading = {name: options.pop(name) for name in _READING if name in options}
-    found = validate(source if shape is None else shape, progress=progress, **reading)
+    known = isinstance(source, Validation) or shape is None
+    found = validate(source if known else shape, progress=progress, **reading)
     mesh = tetrahedralize(found, progress=progress, **{"improve": True, **options})
     faces = _face_numbers(mesh, face_sizes or {})
     wanted = FemOptions(order, quality, Sizes(size, chord, turn, faces), refine)
     project = None if shape is None else brep.projector(shape)
     return prepare(mesh, wanted, project, progress)
+
+
+def shape_of(source: Any) -> Any | None:
+    """Return the B-rep shape of a file or CAD object, None for meshes."""
+    return _shape(source)[0]
 
 
 _READING = ("linear_deflection", "relative_deflection", "angular_deflection", "solid")

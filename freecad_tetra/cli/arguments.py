@@ -37,6 +37,9 @@ def parser() -> argparse.ArgumentParser:
     _tets(commands.add_parser("tets", help="fill a solid with face-to-face tetrahedra"))
     _cells(commands.add_parser("cells", help="partition a solid into convex cells"))
     _common(commands.add_parser("info", help="validate a solid and count what is in it"))
+    quality = commands.add_parser("quality", help="tell the shape of a mesh's tetrahedra")
+    quality.add_argument("input", metavar="FILE", help=".vtu .msh .inp .mesh .vtk .med")
+    quality.add_argument("--report", metavar="FILE", help="write the figures (JSON)")
     check = commands.add_parser("check", help="verify a result file against its solid")
     _common(check)
     check.add_argument("result", metavar="OUT", help="cells (.obj .vtu) or tetrahedra (.vtu)")
@@ -56,11 +59,31 @@ def _tets(command: argparse.ArgumentParser) -> None:
         metavar="auto|x|y|z|A,B,C",
         help="direction of the fences",
     )
-    command.add_argument("--order", type=int, choices=(1, 2), default=1, help="nodes per edge")
     command.add_argument("--pull-off", choices=("auto", "on", "off"), default="auto")
     compact = command.add_mutually_exclusive_group()
     compact.add_argument("--compact", choices=("default", "max"), default="default")
     compact.add_argument("--no-compact", dest="compact", action="store_const", const="off")
+    _fem(command)
+
+
+def _fem(command: argparse.ArgumentParser) -> None:
+    group = command.add_argument_group("for analysis")
+    group.add_argument("--order", type=int, choices=(1, 2), default=1, help="nodes per edge, less 1")
+    group.add_argument("--quality", action="store_true", help="better elements, by mmg3d")
+    group.add_argument("--size", type=_positive, metavar="MM", help="longest edge (--quality)")
+    group.add_argument(
+        "--chord", type=_positive, metavar="MM", help="distance of edges from round faces (--quality)"
+    )
+    group.add_argument(
+        "--turn", type=_positive, default=0.0, metavar="N", help="elements in a full turn (--quality)"
+    )
+    group.add_argument(
+        "--face-size", type=_face_size, action="append", default=[], metavar="FaceN=MM",
+        help="longest edge on one B-rep face (--quality), several times",
+    )  # fmt: skip
+    group.add_argument(
+        "--refine", type=_times, default=0, metavar="N", help="divide each element into 8, N times"
+    )
 
 
 def _cells(command: argparse.ArgumentParser) -> None:
@@ -118,6 +141,20 @@ def _number(word: str) -> int:
     if value < 1:
         raise argparse.ArgumentTypeError(f"{word} is below 1")
     return value
+
+
+def _times(word: str) -> int:
+    value = int(word)
+    if not 0 <= value <= 4:
+        raise argparse.ArgumentTypeError(f"{word} is not between 0 and 4")
+    return value
+
+
+def _face_size(word: str) -> tuple[str, float]:
+    name, _, value = word.partition("=")
+    if not (name.startswith("Face") and name[4:].isdigit() and value):
+        raise argparse.ArgumentTypeError(f"{word} is not like Face3=0.5")
+    return name, _positive(value)
 
 
 def _steps(word: str) -> int:

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""The four commands: read, work, write, and one exit code for each kind of failure."""
+"""The commands: read, work, write, and one exit code for each kind of failure."""
 
 from __future__ import annotations
 
@@ -23,7 +23,7 @@ from freecad_tetra.errors import (
     VerificationFailed,
 )
 from freecad_tetra.kernel import Validation, piece_bound
-from freecad_tetra.model import ConvexCells, Report, Solid, TetMesh
+from freecad_tetra.model import ConvexCells, Report, Solid, Tet10Mesh, TetMesh
 
 DONE, USAGE, INVALID, UNREADABLE, UNVERIFIED, CANCELLED = 0, 2, 3, 4, 5, 130
 _DEFECT_LINES = 200
@@ -47,7 +47,7 @@ def run(
         import into an ImportError, so that no error counts once this is true.
     """
     meter = Meter(told)
-    commands = {"tets": _tets, "cells": _cells, "info": _info, "check": _check}
+    commands = {"tets": _tets, "cells": _cells, "info": _info, "check": _check, "quality": _quality}
     try:
         _require_writable(arguments)
         code = commands[arguments.command](arguments, meter)
@@ -104,9 +104,10 @@ def _require_writable(arguments: argparse.Namespace) -> None:
     kinds = {"cells": ConvexCells, "tets": TetMesh}
     if arguments.command in kinds:
         export.writer_for(kinds[arguments.command], arguments.output, order)
-    if arguments.surface:
-        export.writer_for(Solid, arguments.surface)
-    for name in (getattr(arguments, "output", None), arguments.surface, arguments.report):
+    surface = getattr(arguments, "surface", None)
+    if surface:
+        export.writer_for(Solid, surface)
+    for name in (getattr(arguments, "output", None), surface, arguments.report):
         if name is None:
             continue
         folder = Path(name).parent
@@ -144,16 +145,34 @@ def _cells(arguments: argparse.Namespace, meter: Meter) -> int:
 
 
 def _tets(arguments: argparse.Namespace, meter: Meter) -> int:
-    found = _valid(arguments, meter)
-    mesh = api.tetrahedralize(
-        found,
-        method=arguments.method,
-        direction=arguments.direction,
-        pull_off=arguments.pull_off,
-        compact=arguments.compact,
-        progress=meter,
-    )
+    analysis = arguments.order == 2 or arguments.quality or arguments.refine > 0
+    shape = api.shape_of(arguments.input) if analysis else None
+    source = arguments.input if shape is None else shape
+    found = api.validate(source, progress=meter, **_reading(arguments))
+    if found.defects:
+        raise InvalidSolid(found.defects)
+    chosen = {name: getattr(arguments, name) for name in ("method", "direction", "pull_off",
+                                                          "compact")}  # fmt: skip
+    if analysis:
+        mesh = api.fem_mesh(
+            found,
+            shape=shape,
+            order=arguments.order,
+            quality=arguments.quality,
+            size=arguments.size,
+            chord=arguments.chord,
+            turn=arguments.turn,
+            face_sizes=dict(arguments.face_size),
+            refine=arguments.refine,
+            progress=meter,
+            **chosen,
+        )
+    else:
+        mesh = api.tetrahedralize(found, progress=meter, **chosen)
     _write_all(arguments, meter, mesh, found, mesh.report)
+    meter.clear()
+    for line in mesh.report.details.get("warnings", ()):
+        print(f"warning: {line}", file=sys.stderr)
     print(f"{len(mesh)} tetrahedra, {len(mesh.points)} points{_summary(mesh.report)}")
     return DONE
 
@@ -174,7 +193,7 @@ def _summary(report: Report) -> str:
 def _write_all(
     arguments: argparse.Namespace,
     meter: Meter,
-    result: ConvexCells | TetMesh,
+    result: ConvexCells | TetMesh | Tet10Mesh,
     found: Validation,
     report: Report,
 ) -> None:
@@ -246,4 +265,15 @@ def _check(arguments: argparse.Namespace, meter: Meter) -> int:
     for label, value in out.items():
         print(f"{label.replace('_', ' '):<16} {value}")
     _write_report(arguments, {"verdict": "verified", **out, "exit_code": DONE})
+    return DONE
+
+
+def _quality(arguments: argparse.Namespace, meter: Meter) -> int:
+    from freecad_tetra.cli import quality
+
+    found = quality.measure(arguments.input)
+    meter.clear()
+    for line in quality.lines(found):
+        print(line)
+    _write_report(arguments, {"quality": found, "exit_code": DONE})
     return DONE

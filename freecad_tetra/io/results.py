@@ -5,6 +5,7 @@ from __future__ import annotations
 
 import base64
 import binascii
+import contextlib
 from dataclasses import dataclass
 from os import PathLike
 from pathlib import Path
@@ -33,10 +34,19 @@ class StoredCells:
 
 @dataclass(frozen=True)
 class StoredTets:
-    """Tetrahedra of a file: points (p, 3) float64, tets (t, 4) int64."""
+    """Tetrahedra of a file.
+
+    Attributes
+    ----------
+    points : (p, 3) float64
+    tets : (t, 4) int64
+    middles : (t, 6) int64 or None
+        Nodes amid the edges 01, 12, 20, 03, 13, 23, of second order.
+    """
 
     points: FloatArray
     tets: LongArray
+    middles: LongArray | None = None
 
 
 def read_result(path: str | PathLike[str]) -> StoredCells | StoredTets:
@@ -61,10 +71,37 @@ def read_result(path: str | PathLike[str]) -> StoredCells | StoredTets:
     return found
 
 
+def read_tets(path: str | PathLike[str]) -> StoredTets:
+    """Read the tetrahedra of any mesh file: .vtu of this package, others by meshio.
+
+    Raises
+    ------
+    UnreadableFile, UnsupportedFormat, MissingDependency
+    """
+    file = Path(path)
+    if file.suffix.lower() == ".vtu":
+        with contextlib.suppress(UnreadableFile, UnsupportedFormat):
+            found = read_result(file)
+            if isinstance(found, StoredTets):
+                return found
+    from freecad_tetra.io import any_mesh
+
+    points, tets = any_mesh.read_tets(file)
+    stored = StoredTets(points, tets[:, :4], tets[:, 4:] if tets.shape[1] == 10 else None)
+    try:
+        _require_sane(stored)
+    except BadFile as error:
+        raise UnreadableFile(file, f"it is malformed ({error})") from error
+    return stored
+
+
 def _require_sane(found: StoredCells | StoredTets) -> None:
     if not np.isfinite(found.points).all():
         raise BadFile("a coordinate is not finite")
-    loops = [x for c in found.cells for x in c] if isinstance(found, StoredCells) else [found.tets]
+    if isinstance(found, StoredCells):
+        loops = [x for c in found.cells for x in c]
+    else:
+        loops = [x for x in (found.tets, found.middles) if x is not None]
     if not loops:
         raise BadFile("it holds no cells")
     for loop in loops:
@@ -100,8 +137,10 @@ def _vtu(data: bytes) -> StoredCells | StoredTets:
     types = arrays["types"]
     if np.isin(types, (*_TETS, *_SKIN)).all():
         starts = np.append(0, arrays["offsets"])[:-1][np.isin(types, _TETS)]
-        corners = starts.astype(np.int64)[:, None] + np.arange(4)
-        return StoredTets(points, arrays["connectivity"][corners].astype(np.int64))
+        second = bool((types[np.isin(types, _TETS)] == _TETS[1]).all())
+        nodes = starts.astype(np.int64)[:, None] + np.arange(10 if second else 4)
+        rows = arrays["connectivity"][nodes].astype(np.int64)
+        return StoredTets(points, rows[:, :4], rows[:, 4:] if second else None)
     if not (types == _POLYHEDRON).all():
         raise BadFile("it holds cells that are neither tetrahedra nor polyhedra")
     return StoredCells(points, tuple(_polyhedra(arrays["faces"].astype(np.int64), len(types))))
