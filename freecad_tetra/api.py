@@ -184,7 +184,9 @@ def tetrahedralize(
     axis = direction if isinstance(direction, str) else [int(i) for i in direction]
     found = validate(source, progress=progress, **reading)
     options: dict[str, Any] = {"method": method, "direction": axis}
-    options.update(pull_off=pull_off, compact=compact, quality=improve)
+    options.update(pull_off=pull_off, compact=compact)
+    if improve:
+        options["quality"] = True
     if isinstance(axis, str) and axis == "auto" and not found.defects:
         options["directions"] = directions.candidates(found.surface())
     return kernel.tetrahedralize(found, options, progress)
@@ -214,7 +216,10 @@ def fem_mesh(
         Straight tetrahedra, or curved ones with a node amid every edge.
     quality : bool
         Rebuild the elements by the optional program mmg3d.
-    size, chord, turn, face_sizes
+    size : float, optional
+        Longest edge; by default an eighth of the diagonal, with `quality` a twelfth. 0 without
+        `quality` leaves the elements as they are.
+    chord, turn, face_sizes
         For `quality`, see `freecad_tetra.fem.remesh.Sizes`; faces by name, such as ``Face3``.
     refine : int
         How often every element is divided into eight.

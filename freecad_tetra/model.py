@@ -23,6 +23,7 @@ LongArray = npt.NDArray[np.int64]
 
 __all__ = [
     "Cell", "ConvexCells", "Defect", "Report", "Solid", "Tet10Mesh", "TetMesh", "frozen_array",
+    "rebuilt",
 ]  # fmt: skip
 
 
@@ -382,6 +383,17 @@ class TetMesh:
         p = self.points[self.tets]
         a, b, c = (p[:, i] - p[:, 0] for i in (1, 2, 3))
         return np.einsum("ij,ij->i", a, np.cross(b, c)) / 6.0
+
+
+def rebuilt(
+    mesh: TetMesh, points: Any, tets: Any, tet_solid: Any, skin: Any, skin_face: Any,
+    skin_source: Any, point_source: Any,
+) -> TetMesh:  # fmt: skip
+    """Return a mesh of the same solid with other elements; names and report are kept."""
+    return TetMesh(
+        points, tets, skin, skin_face, skin_source, tet_solid, point_source, mesh.face_names,
+        mesh.report,
+    )  # fmt: skip
 
 
 @dataclass(frozen=True, eq=False)

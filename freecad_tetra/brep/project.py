@@ -14,7 +14,6 @@ from OCP.gp import gp_Pnt
 from OCP.ShapeAnalysis import ShapeAnalysis_Surface
 from OCP.TopAbs import TopAbs_ShapeEnum
 from OCP.TopExp import TopExp
-from OCP.TopLoc import TopLoc_Location
 from OCP.TopoDS import TopoDS
 from OCP.TopTools import TopTools_IndexedMapOfShape
 
@@ -73,9 +72,7 @@ class Projector:
             table = _indexed(self._face(number), _EDGE)
             rows = [TopoDS.Edge_s(table.FindKey(i)) for i in range(1, table.Extent() + 1)]
             self._edges[number] = {
-                int(self._all_edges.FindIndex(e)): e
-                for e in rows
-                if not BRep_Tool.Degenerated_s(e)
+                int(self._all_edges.FindIndex(e)): e for e in rows if not BRep_Tool.Degenerated_s(e)
             }
         return self._edges[number]
 

@@ -67,19 +67,31 @@ def _tets(command: argparse.ArgumentParser) -> None:
 
 
 def _fem(command: argparse.ArgumentParser) -> None:
-    group = command.add_argument_group("for analysis")
-    group.add_argument("--order", type=int, choices=(1, 2), default=1, help="nodes per edge, less 1")
+    group = command.add_argument_group("for analysis", "the last three act with --quality")
+    group.add_argument("--order", type=int, choices=(1, 2), default=1, help="2: nodes amid edges")
     group.add_argument("--quality", action="store_true", help="better elements, by mmg3d")
-    group.add_argument("--size", type=_positive, metavar="MM", help="longest edge (--quality)")
     group.add_argument(
-        "--chord", type=_positive, metavar="MM", help="distance of edges from round faces (--quality)"
+        "--size",
+        type=_positive,
+        metavar="MM",
+        help="longest edge",
     )
     group.add_argument(
-        "--turn", type=_positive, default=0.0, metavar="N", help="elements in a full turn (--quality)"
+        "--chord",
+        type=_positive,
+        metavar="MM",
+        help="distance of edges from round faces",
+    )
+    group.add_argument(
+        "--turn",
+        type=_positive,
+        default=0.0,
+        metavar="N",
+        help="elements in a full turn",
     )
     group.add_argument(
         "--face-size", type=_face_size, action="append", default=[], metavar="FaceN=MM",
-        help="longest edge on one B-rep face (--quality), several times",
+        help="longest edge on one B-rep face",
     )  # fmt: skip
     group.add_argument(
         "--refine", type=_times, default=0, metavar="N", help="divide each element into 8, N times"

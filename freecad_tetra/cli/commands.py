@@ -145,7 +145,7 @@ def _cells(arguments: argparse.Namespace, meter: Meter) -> int:
 
 
 def _tets(arguments: argparse.Namespace, meter: Meter) -> int:
-    analysis = arguments.order == 2 or arguments.quality or arguments.refine > 0
+    analysis = bool(arguments.order == 2 or arguments.quality or arguments.refine or arguments.size)
     shape = api.shape_of(arguments.input) if analysis else None
     source = arguments.input if shape is None else shape
     found = api.validate(source, progress=meter, **_reading(arguments))
@@ -159,7 +159,7 @@ def _tets(arguments: argparse.Namespace, meter: Meter) -> int:
             shape=shape,
             order=arguments.order,
             quality=arguments.quality,
-            size=arguments.size,
+            size=arguments.size or (None if arguments.quality else 0.0),
             chord=arguments.chord,
             turn=arguments.turn,
             face_sizes=dict(arguments.face_size),

@@ -56,7 +56,7 @@ def _derivatives(points: Any) -> FloatArray:
 
 LATTICE = np.array(_lattice(), float) / 3
 GAUSS = np.array(_gauss_points())
-_EDGE_MIDDLES = np.array([[0.5 * (k in pair) for k in range(4)] for pair in combinations(range(4), 2)])
+_EDGE_MIDDLES = np.array([[0.5 * (k in e) for k in range(4)] for e in combinations(range(4), 2)])
 SAMPLES = np.concatenate([LATTICE, GAUSS, _EDGE_MIDDLES])
 GAUSS_COLUMNS = slice(len(LATTICE), len(LATTICE) + len(GAUSS))
 _SAMPLE_DERIVATIVES = _derivatives(SAMPLES)

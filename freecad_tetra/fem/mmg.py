@@ -58,9 +58,7 @@ def require() -> Path:
     """
     program = find()
     if program is None:
-        raise MissingDependency(
-            "mmg3d", "better elements (quality)", "mmgpy"
-        )
+        raise MissingDependency("mmg3d", "better elements (quality)", "mmgpy")
     return program
 
 

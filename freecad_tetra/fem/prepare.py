@@ -11,13 +11,17 @@ from dataclasses import dataclass, field, replace
 from time import perf_counter
 from typing import Any
 
-from freecad_tetra.errors import Cancelled
+from freecad_tetra.errors import Cancelled, MissingDependency
+from freecad_tetra.fem import mmg
 from freecad_tetra.fem import project as projecting
 from freecad_tetra.fem import quality as measuring
 from freecad_tetra.fem import remesh as remeshing
+from freecad_tetra.fem.bisect import bisect
 from freecad_tetra.fem.refine import refine
 from freecad_tetra.fem.second_order import Curving, second_order
 from freecad_tetra.model import Tet10Mesh, TetMesh
+
+SIZE_SHARE = 1 / 8  # of the diagonal: the longest edge when none is asked for
 
 Told = Callable[[str, float], "bool | None"] | None
 
@@ -32,7 +36,7 @@ class FemOptions:
     quality : bool
         Rebuild the elements by mmg.
     sizes : Sizes
-        For `quality`.
+        Without `quality` only its size counts, by bisection; 0 leaves the elements as they are.
     refine : int
         How often every element is divided into eight.
     """
@@ -74,6 +78,7 @@ def prepare(
     start = perf_counter()
     done: dict[str, Any] = {"order": wanted.order, "refined": wanted.refine}
     if wanted.quality:
+        _require_mmg(mesh)
         _tell(told, "remesh", 0.0)
         mesh = remeshing.remesh(mesh, wanted.sizes, project, told)
     elif project is not None:
@@ -81,6 +86,9 @@ def prepare(
         mesh, done["projected_points"], done["unprojected_points"] = projecting.project_points(
             mesh, project
         )
+    if not wanted.quality and wanted.sizes.size != 0:
+        _tell(told, "bisect", 0.0)
+        mesh = bisect(mesh, wanted.sizes.size or SIZE_SHARE * remeshing.diagonal(mesh), project)
     for step in range(wanted.refine):
         _tell(told, "refine", step / wanted.refine)
         mesh = refine(mesh, project)
@@ -95,6 +103,17 @@ def prepare(
         done["straightened_faces"] = [_name(mesh, f) for f in curving.faces]
     _tell(told, "quality", 0.0)
     return _reported(made, done, perf_counter() - start)
+
+
+def _require_mmg(mesh: TetMesh) -> None:
+    """Say what the mesh is like without mmg, when it is missing."""
+    if mmg.find() is None:
+        least = measuring.quality(mesh).to_dict()["min_dihedral_degrees"]
+        raise MissingDependency(
+            "mmg3d",
+            f"quality (without it the least dihedral angle is {least:.2g} degrees)",
+            "mmgpy",
+        )
 
 
 def _reported(mesh: TetMesh | Tet10Mesh, done: dict[str, Any], seconds: float) -> Any:

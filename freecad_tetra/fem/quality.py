@@ -25,6 +25,7 @@ GOOD_DIHEDRAL = 8.0  # degrees; below it stresses beside the element are not to 
 _SIDES = np.array([(1, 2, 3), (0, 3, 2), (0, 1, 3), (0, 2, 1)])
 # Edges that the sides i and j share, in the order of `dihedral_angles`.
 _PAIRS = np.array([(0, 1), (0, 2), (0, 3), (1, 2), (1, 3), (2, 3)])
+_AT_CORNER = ((0, 1, 2), (0, 3, 4), (1, 3, 5), (2, 4, 5))  # pairs that hold each corner
 
 
 @dataclass(frozen=True, eq=False)
@@ -168,6 +169,6 @@ def mean_ratio(corners: Any) -> FloatArray:
 def _longest_product(corners: Any) -> FloatArray:
     """Return the largest product of the three squared edges at a corner, (t,)."""
     squares = np.square(corners[:, _PAIRS[:, 1]] - corners[:, _PAIRS[:, 0]]).sum(axis=2)
-    products = [squares[:, (_PAIRS == v).any(axis=1)].prod(axis=1) for v in range(4)]
+    products = [squares[:, own].prod(axis=1) for own in _AT_CORNER]
     longest: FloatArray = np.max(products, axis=0)
     return longest

@@ -8,7 +8,6 @@ divided in the same way, so the result is face to face again.
 
 from __future__ import annotations
 
-from dataclasses import replace
 from typing import Any
 
 import numpy as np
@@ -17,7 +16,7 @@ from freecad_tetra.fem import jacobian
 from freecad_tetra.fem.project import Project, project_points
 from freecad_tetra.fem.second_order import edge_ids, tet_edges
 from freecad_tetra.fem.skin import skin_edges
-from freecad_tetra.model import FloatArray, LongArray, TetMesh
+from freecad_tetra.model import FloatArray, LongArray, TetMesh, rebuilt
 
 # Nodes as in `Tet10Mesh`: corners 0 to 3, middles 4 to 9.
 _CORNERS = ((0, 4, 6, 7), (4, 1, 5, 8), (6, 5, 2, 9), (7, 8, 9, 3))
@@ -63,10 +62,10 @@ def refine(mesh: TetMesh, project: Project | None = None) -> TetMesh:
     table = skin_edges(mesh.skin)
     place = edge_ids(ends, table.ends, base)[table.of_triangle] + base
     rows = np.hstack([mesh.skin.astype(np.int64), place])
-    fine = TetMesh(
-        points, tets, rows[:, np.array(_TRIANGLES)].reshape(-1, 3), np.repeat(mesh.skin_face, 4),
-        np.repeat(mesh.skin_source, 4), np.repeat(mesh.tet_solid, 8),
-        np.concatenate([mesh.point_source, np.full(len(ends), -1)]), mesh.face_names, mesh.report,
+    skin = rows[:, np.array(_TRIANGLES)].reshape(-1, 3)
+    fine = rebuilt(
+        mesh, points, tets, np.repeat(mesh.tet_solid, 8), skin, np.repeat(mesh.skin_face, 4),
+        np.repeat(mesh.skin_source, 4), np.append(mesh.point_source, np.full(len(ends), -1)),
     )  # fmt: skip
     if project is None:
         return fine
@@ -91,4 +90,4 @@ def refined(mesh: TetMesh, times: int, project: Project | None = None) -> TetMes
     """Return the mesh refined `times` times; elements grow by eight each time."""
     for _ in range(times):
         mesh = refine(mesh, project)
-    return replace(mesh)
+    return mesh

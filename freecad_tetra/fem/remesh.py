@@ -9,7 +9,7 @@ stays planar; the points of curved ones are brought to the CAD afterwards.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field, replace
 from typing import Any
 
@@ -21,7 +21,7 @@ from freecad_tetra.fem.project import Project, project_points
 from freecad_tetra.fem.quality import quality
 from freecad_tetra.fem.smooth import smooth
 from freecad_tetra.fem.triangles import face_areas
-from freecad_tetra.model import FloatArray, LongArray, TetMesh
+from freecad_tetra.model import FloatArray, LongArray, TetMesh, rebuilt
 
 SIZE_SHARE = 1 / 12  # of the diagonal
 CHORD_SHARE = 1e-3  # of the diagonal
@@ -87,9 +87,8 @@ def remesh(
         The area of a face changed by more than 5 %, or the volume by more than 0.5 %.
     """
     wanted = sizes or Sizes()
-    diagonal = float(np.linalg.norm(np.ptp(mesh.points, axis=0)))
-    size = wanted.size or SIZE_SHARE * diagonal
-    chord = wanted.chord or CHORD_SHARE * diagonal
+    size = wanted.size or SIZE_SHARE * diagonal(mesh)
+    chord = wanted.chord or CHORD_SHARE * diagonal(mesh)
     options = ["-nr", "-hmax", f"{size:.9g}", "-hausd", f"{chord:.9g}"]
     options += ["-hgrad", f"{wanted.growth:.9g}"]
     local = _local(mesh, wanted, size, chord)
@@ -107,6 +106,11 @@ def remesh(
                "unprojected": made.left, "smoothed": made.smoothed, **changes}  # fmt: skip
     report = replace(mesh.report, details={**mesh.report.details, "remesh": details})
     return replace(made.mesh, report=report)
+
+
+def diagonal(mesh: TetMesh) -> float:
+    """Return the diagonal of the bounding box."""
+    return float(np.linalg.norm(np.ptp(mesh.points, axis=0)))
 
 
 @dataclass(frozen=True)
@@ -149,7 +153,7 @@ def _tables(mesh: TetMesh) -> dict[str, Any]:
         "Vertices": mesh.points,
         "Triangles": triangles[np.sort(first)],
         "Tetrahedra": np.hstack([mesh.tets + 1, mesh.tet_solid[:, None] + 1]),
-        "Edges": edges + [1, 1, 1],
+        "Edges": edges + 1,
         "Ridges": ridges + 1,
         "Corners": corners + 1,
     }
@@ -256,7 +260,9 @@ def _mesh(mesh: TetMesh, found: mmg.Table) -> TetMesh:
     back[used] = np.arange(len(used))
     rows, _ = skin.skin_of(tets, solid)
     given = np.sort(back[found["Triangles"][:, :3] - 1], axis=1)
-    _, index = np.unique(np.concatenate([given, np.sort(rows, axis=1)]), axis=0, return_inverse=True)
+    _, index = np.unique(
+        np.concatenate([given, np.sort(rows, axis=1)]), axis=0, return_inverse=True
+    )
     index = index.reshape(-1)
     place = np.full(int(index.max()) + 1, -1, np.int64)
     place[index[: len(given)]] = found["Triangles"][:, 3] - 1
@@ -264,10 +270,9 @@ def _mesh(mesh: TetMesh, found: mmg.Table) -> TetMesh:
     if (face < 0).any():
         raise mmg.RemeshingFailed(f"mmg3d lost the face of {int((face < 0).sum())} triangles")
     points = found["Vertices"][used, :3]
-    return TetMesh(
-        points, tets, rows, face, np.full(len(rows), -1), solid, np.full(len(points), -1),
-        mesh.face_names, mesh.report,
-    )  # fmt: skip
+    return rebuilt(
+        mesh, points, tets, solid, rows, face, np.full(len(rows), -1), np.full(len(points), -1)
+    )
 
 
 def _require_same(before: TetMesh, after: TetMesh) -> dict[str, float]:
@@ -280,7 +285,9 @@ def _require_same(before: TetMesh, after: TetMesh) -> dict[str, float]:
     change = {f: abs(new.get(f, 0.0) / a - 1) for f, a in old.items() if a > 0}
     worst = max(change, key=lambda f: change[f], default=-1)
     if volume > _VOLUME_SHARE:
-        raise VerificationFailed(f"remeshing changed the volume by {volume:.2%}", "try a smaller size")
+        raise VerificationFailed(
+            f"remeshing changed the volume by {volume:.2%}", "try a smaller size"
+        )
     if worst >= 0 and change[worst] > _AREA_SHARE:
         name = before.face_names[worst] if before.face_names else str(worst)
         raise VerificationFailed(

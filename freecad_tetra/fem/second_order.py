@@ -66,8 +66,8 @@ def second_order(mesh: TetMesh, project: Project | None = None) -> tuple[Tet10Me
         middles, curving = _curve(mesh, tets, ends, straight, wanted, project)
     source = np.concatenate([mesh.point_source, np.full(len(middles), -1)])
     made = Tet10Mesh(
-        np.concatenate([mesh.points, middles]), tets, triangles, mesh.skin_face, mesh.skin_source,
-        mesh.tet_solid, source, mesh.face_names, mesh.report,
+        np.concatenate([mesh.points, middles]), tets.astype(np.int32), triangles.astype(np.int32),
+        mesh.skin_face, mesh.skin_source, mesh.tet_solid, source, mesh.face_names, mesh.report,
     )  # fmt: skip
     return made, curving
 

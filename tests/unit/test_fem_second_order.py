@@ -62,7 +62,9 @@ def test_straight_middles_are_means(cube_tets: TetMesh) -> None:
         assert np.array_equal(p[made.skin[:, k]], (p[made.skin[:, i]] + p[made.skin[:, j]]) / 2)
     assert len(made.points) == 8 + 19, "the cube has 12 edges, 6 of faces and one inside"
     back = straightened(made)
-    assert np.array_equal(back.tets, cube_tets.tets) and np.array_equal(back.points, cube_tets.points)
+    assert np.array_equal(back.tets, cube_tets.tets) and np.array_equal(
+        back.points, cube_tets.points
+    )
 
 
 def test_cylinder_is_curved_on_its_rims_and_side_only() -> None:
