@@ -135,10 +135,18 @@ def tessellate(
 
 
 def projector(shape: Any) -> Any:
-    """Return a callable that finds nearest points on the faces and edges of a TopoDS_Shape.
+    """Return a callable that finds nearest points on the faces and edges of a shape.
 
     It is a `freecad_tetra.fem.project.Project`; faces are numbered as by `tessellate`.
+
+    Parameters
+    ----------
+    shape : TopoDS_Shape, or a Part.Shape inside FreeCAD, as `as_shape` returns them
     """
+    if hasattr(shape, "tessellated"):
+        from freecad_tetra.brep import part_project
+
+        return part_project.Projector(shape.shape)
     _require_ocp()
     from freecad_tetra.brep import project
 
