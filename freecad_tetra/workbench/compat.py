@@ -123,6 +123,11 @@ def degrees(value: Any) -> float:
     return float(getattr(value, "Value", value))
 
 
+def newtons(value: Any) -> float:
+    """Return a force property in N: a plain float until 0.20, a Quantity since."""
+    return float(value.getValueAs("N")) if hasattr(value, "getValueAs") else float(value)
+
+
 @contextmanager
 def errors_for_freecad() -> Iterator[None]:
     """Turn typed errors into those that FreeCAD shows as an object's state, in one line."""

@@ -1,22 +1,39 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""A FEM mesh as a document object: nodes, tetrahedra and the triangles of the skin.
+"""A FEM mesh as a document object: made of a solid, prepared for analysis, grouped.
 
 Documents store the path of this module and the name of its class: both are a file format.
 """
 
 from __future__ import annotations
 
+import dataclasses
+import hashlib
 import json
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from typing import Any
 
 import FreeCAD
 import numpy as np
 
+from freecad_tetra import brep
 from freecad_tetra.errors import BadOption, TetraError
-from freecad_tetra.export.elements import Elements, elements
-from freecad_tetra.model import TetMesh
-from freecad_tetra.workbench import compat, feature, progress, properties, runner, source, store
+from freecad_tetra.fem.prepare import FemOptions, prepare
+from freecad_tetra.fem.remesh import Sizes
+from freecad_tetra.model import Tet10Mesh, TetMesh
+from freecad_tetra.workbench import (
+    compat,
+    constraints,
+    feature,
+    fem_mesh,
+    load_check,
+    progress,
+    properties,
+    runner,
+    source,
+    store,
+)
+
+_FEM_INPUTS = ("Order", "Quality", "ElementsPerTurn", "FaceSizes", "Refinement")
 
 
 class FemMesh(compat.Stateless):
@@ -27,23 +44,22 @@ class FemMesh(compat.Stateless):
         properties.add(obj, properties.FEM_MESH)
 
     def execute(self, obj: Any) -> None:
-        """FreeCAD calls this when something has changed."""
+        """FreeCAD calls this when something has changed; groups alone are made anew if they do."""
         with compat.errors_for_freecad():
-            mesh = _tetrahedra_of(obj.Source)
-            if mesh is not None:
+            made = _tetrahedra_of(obj.Source)
+            shape = _shape_of(obj.Source)
+            if made is not None:
                 mark = obj.Source.Fingerprint
             else:
-                shape, options = source.shape_of(obj.Source), feature.options_of(obj)
+                options = feature.options_of(obj)
                 mark = source.fingerprint(shape, json.dumps(options))
-            mark = f"{mark} {obj.Order}"
-            if mark == obj.Fingerprint:
-                return
-            if mesh is None:
-                job = runner.start("tetrahedralize", shape, options)
-                mesh = progress.wait(job, obj.Label)
-            obj.FemMesh = fem_mesh(elements(mesh, _order(obj.Order)))
-            store.figures(obj, mesh)
-            obj.Fingerprint = mark
+            mark = _mark(mark, obj)
+            if obj.Fingerprint.split("|")[0] != mark:
+                if made is None:
+                    job = runner.start("tetrahedralize", shape, {**options, "improve": True})
+                    made = progress.wait(job, obj.Label)
+                _fill(obj, made, shape)
+            _group(obj, shape, mark)
 
     def onDocumentRestored(self, obj: Any) -> None:
         """FreeCAD calls this after opening a document and for a copy."""
@@ -58,6 +74,7 @@ def make(doc: Any, source_object: Any, analysis: Any, order: int, given: Mapping
         FemMesh(obj)
         obj.Source = source_object
         properties.fill(obj, properties.FEM_MESH, {**given, "Order": _order(order)})
+        face_sizes(obj.FaceSizes)
     except TetraError:
         doc.removeObject(obj.Name)
         raise
@@ -69,31 +86,108 @@ def make(doc: Any, source_object: Any, analysis: Any, order: int, given: Mapping
 
 
 def accept(obj: Any, mesh: TetMesh) -> None:
-    """Store the result of `feature.start`; the next recompute computes nothing.
+    """Make the mesh of the result of `feature.start`; the next recompute computes nothing.
 
     It holds as that of `feature.accept` does.
     """
-    obj.FemMesh = fem_mesh(elements(mesh, _order(obj.Order)))
-    store.figures(obj, mesh)
-    obj.Fingerprint = f"{feature.mark_of(mesh)} {obj.Order}"
+    shape = _shape_of(obj.Source)
+    _fill(obj, mesh, shape)
+    _group(obj, shape, _mark(feature.mark_of(mesh), obj))
 
 
-def fem_mesh(grid: Elements) -> Any:
-    """Return a Fem.FemMesh; nodes and elements count from 1, triangles follow tetrahedra.
+def update_groups(obj: Any) -> None:
+    """Give the mesh groups for the constraints that its analysis has now, and check the loads."""
+    with compat.errors_for_freecad():
+        _group(obj, _shape_of(obj.Source), obj.Fingerprint.split("|")[0])
 
-    FreeCAD wants tetrahedra of negative orientation: the second and third corner change places.
+
+def options_of(obj: Any, names: tuple[str, ...]) -> FemOptions:
+    """Return the options for analysis of an object; `names` are those of the B-rep's faces.
+
+    Raises
+    ------
+    BadOption
     """
-    import Fem
+    sizes = face_sizes(obj.FaceSizes)
+    lost = [name for name in sizes if name not in names]
+    if lost:
+        raise BadOption(f"there is no face {lost[0]}", f"choose Face1 to Face{len(names)}")
+    by_number = {names.index(name): size for name, size in sizes.items()}
+    size = compat.millimetres(obj.ElementSize) or None
+    turn = float(obj.ElementsPerTurn)
+    return FemOptions(
+        _order(obj.Order), bool(obj.Quality), Sizes(size, None, turn, by_number), obj.Refinement
+    )
 
-    mesh = Fem.FemMesh()
-    for number, (x, y, z) in enumerate(grid.points.tolist(), 1):
-        mesh.addNode(x, y, z, number)
-    turn = [0, 2, 1, 3] if grid.order == 1 else [0, 2, 1, 3, 6, 5, 4, 7, 9, 8]
-    for number, nodes in enumerate((grid.tets[:, turn] + 1).tolist(), 1):
-        mesh.addVolume(nodes, number)
-    for number, nodes in enumerate((grid.skin + 1).tolist(), len(grid.tets) + 1):
-        mesh.addFace(nodes, number)
-    return mesh
+
+def face_sizes(lines: Any) -> dict[str, float]:
+    """Read sizes such as ``Face3=0.5``.
+
+    Raises
+    ------
+    BadOption
+    """
+    out = {}
+    for line in lines:
+        name, _, value = str(line).partition("=")
+        try:
+            out[name.strip()] = float(value)
+        except ValueError:
+            out[name.strip()] = 0.0
+        if not out[name.strip()] > 0:
+            raise BadOption(f"{line!r} is no size of a face", "write it as Face3=0.5")
+    return out
+
+
+def _fill(obj: Any, mesh: TetMesh, shape: Any) -> None:
+    """Prepare the mesh for analysis and hand it to FreeCAD; warnings go to the report view."""
+    project = None if shape is None else brep.projector(brep.as_shape(shape))
+    options = options_of(obj, mesh.face_names)
+    work: Callable[[Any], TetMesh | Tet10Mesh] = lambda told: prepare(mesh, options, project, told)
+    made = progress.watched(work, obj.Label)
+    obj.FemMesh = fem_mesh.fem_mesh(made)
+    store.figures(obj, made)
+    corners = int(made.tets[:, :4].max()) + 1
+    obj.SteinerPoints = int((made.point_source[:corners] < 0).sum())
+    for line in made.report.details["warnings"]:
+        FreeCAD.Console.PrintWarning(f"{obj.Label}: {line}\n")
+
+
+def _group(obj: Any, shape: Any, mark: str) -> None:
+    """Make the groups of the constraints anew when they have changed, then check the loads."""
+    analysis = constraints.analysis_of(obj)
+    told = json.dumps(constraints.signature(analysis))
+    wanted = f"{mark}|{hashlib.sha256(told.encode()).hexdigest()}"
+    if obj.Fingerprint == wanted:
+        return
+    members = constraints.constraints_of(analysis)
+    made = obj.FemMesh.copy()
+    fem_mesh.remove_groups(made, {m.Name for m in (*obj.Constraints, *members)})
+    if shape is not None:
+        fem_mesh.add_groups(made, constraints.groups(made, analysis, shape, obj.Source))
+    obj.FemMesh = made
+    obj.Constraints = members
+    obj.Fingerprint = wanted
+    if members and obj.LoadCheck != "Off":
+        load_check.check(analysis, strict=obj.LoadCheck == "Error")
+
+
+def _mark(mark: str, obj: Any) -> str:
+    """Return what changes with the source and with every input of the mesh."""
+    inputs = [getattr(obj, name) for name in _FEM_INPUTS]
+    inputs.append(compat.millimetres(obj.ElementSize))
+    return f"{mark} {json.dumps(inputs, separators=(',', ':'))}"
+
+
+def _shape_of(obj: Any) -> Any:
+    """Return the B-rep that the mesh is of, where it lies; None when the tetrahedra lost it."""
+    if not isinstance(getattr(obj, "Proxy", None), feature.Tetrahedra):
+        return source.shape_of(obj)
+    if obj.Source is None:
+        return None
+    shape = source.shape_of(obj.Source).copy(False)
+    shape.Placement = obj.Placement.multiply(shape.Placement)
+    return shape
 
 
 def _tetrahedra_of(obj: Any) -> TetMesh | None:
@@ -108,8 +202,6 @@ def _tetrahedra_of(obj: Any) -> TetMesh | None:
     placed = np.array(obj.Placement.Matrix.A).reshape(4, 4)
     if np.array_equal(placed, np.eye(4)):
         return pieces
-    import dataclasses
-
     points = pieces.points @ placed[:3, :3].T + placed[:3, 3]
     return dataclasses.replace(pieces, points=points)
 

@@ -3,6 +3,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from typing import Any
 
 import FreeCAD
@@ -26,6 +27,25 @@ def wait(job: Job, label: str) -> Any:
     bar = _Bar(label)
     try:
         return job.wait(bar.show)
+    except RuntimeError as error:  # FreeCAD's word for Esc
+        raise Cancelled() from error
+    finally:
+        bar.close()
+
+
+def watched(work: Callable[[Callable[[str, float], bool]], Any], label: str) -> Any:
+    """Return what `work` does in this thread, telling its progress to the callable it is given.
+
+    Raises
+    ------
+    TetraError
+        That of the work; `Cancelled` when the user has pressed Esc.
+    """
+    if not FreeCAD.GuiUp:
+        return work(lambda stage, fraction: True)
+    bar = _Bar(label)
+    try:
+        return work(bar.show)
     except RuntimeError as error:  # FreeCAD's word for Esc
         raise Cancelled() from error
     finally:

@@ -123,6 +123,41 @@ FEM_MESH: dict[str, Property] = {
         QT_TRANSLATE_NOOP("App::Property", "1 for straight tetrahedra, 2 for middle nodes too"),
         value=2,
     ),
+    "Quality": Property(
+        "App::PropertyBool", "Elements",
+        QT_TRANSLATE_NOOP("App::Property", "Rebuild the elements by the program mmg3d"),
+        value=False,
+    ),
+    "ElementSize": Property(
+        "App::PropertyLength", "Elements",
+        QT_TRANSLATE_NOOP("App::Property", "Longest edge of elements; 0 chooses by size"),
+        value=0.0,
+    ),
+    "ElementsPerTurn": Property(
+        "App::PropertyInteger", "Elements",
+        QT_TRANSLATE_NOOP(
+            "App::Property", "Elements around a round face, with Quality; 0 is automatic"
+        ), value=0,
+    ),
+    "FaceSizes": Property(
+        "App::PropertyStringList", "Elements",
+        QT_TRANSLATE_NOOP("App::Property", "Longest edges on faces, with Quality: Face3=0.5"),
+    ),
+    "Refinement": Property(
+        "App::PropertyInteger", "Elements",
+        QT_TRANSLATE_NOOP("App::Property", "How often every element is divided into eight"),
+        value=0,
+    ),
+    "LoadCheck": Property(
+        "App::PropertyEnumeration", "Elements",
+        QT_TRANSLATE_NOOP("App::Property", "What to do when a load does not arrive on the mesh"),
+        value=["Warn", "Error", "Off"],
+    ),
+    "Constraints": Property(
+        "App::PropertyLinkListGlobal", "Result",
+        QT_TRANSLATE_NOOP("App::Property", "Those of the analysis that the mesh has groups for"),
+        _DATA,
+    ),
 }  # fmt: skip
 
 

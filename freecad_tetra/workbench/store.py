@@ -13,7 +13,7 @@ from typing import Any
 import numpy as np
 
 from freecad_tetra.errors import InvalidSolid, TetraError
-from freecad_tetra.model import ConvexCells, Report, TetMesh
+from freecad_tetra.model import ConvexCells, Report, Tet10Mesh, TetMesh
 
 _ARRAYS = {
     "TetMesh": ("points", "tets", "skin", "skin_face", "skin_source", "tet_solid", "point_source"),
@@ -37,7 +37,7 @@ def write(obj: Any, pieces: ConvexCells | TetMesh) -> None:
     figures(obj, pieces)
 
 
-def figures(obj: Any, pieces: ConvexCells | TetMesh) -> None:
+def figures(obj: Any, pieces: ConvexCells | TetMesh | Tet10Mesh) -> None:
     """Set ReportData and the read-only figures of an object."""
     report = pieces.report
     obj.ReportData = json.dumps(report.to_dict(), separators=(",", ":"))

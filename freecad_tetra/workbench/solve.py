@@ -1,0 +1,86 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""An analysis is solved by CalculiX, after its loads have been checked to arrive."""
+
+from __future__ import annotations
+
+import tempfile
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+from freecad_tetra.errors import TetraError
+from freecad_tetra.model import FloatArray
+from freecad_tetra.workbench import deck, load_check
+
+
+class SolverFailed(TetraError):
+    """CalculiX, or what FreeCAD needs for it, has failed; the message is its own."""
+
+
+@dataclass(frozen=True, eq=False)
+class Solution:
+    """What CalculiX found.
+
+    Attributes
+    ----------
+    result : Fem::FemResultObject
+        FreeCAD's own, with displacements and stresses.
+    reaction : (3,) float64
+        Sum of the forces at all supports, N.
+    rows : list of Row
+        The loads, compared.
+    folder : Path
+        Where deck and output are.
+    """
+
+    result: Any
+    reaction: FloatArray
+    rows: list[load_check.Row]
+    folder: Path
+
+
+def solve(analysis: Any, folder: str | Path | None = None, strict: bool = True) -> Solution:
+    """Write the deck, check that the loads arrive, run CalculiX, load the results.
+
+    Parameters
+    ----------
+    analysis : Fem::FemAnalysis
+        With one solver of CalculiX, one mesh, materials and constraints.
+    folder : path, optional
+        For deck and output; a temporary one by default.
+    strict : bool
+        Stop when a load does not arrive, before the solver runs; otherwise warn.
+
+    Raises
+    ------
+    LoadsLost, SolverFailed
+    """
+    from femtools import ccxtools
+
+    place = Path(folder or tempfile.mkdtemp(prefix="tetra_ccx_"))
+    tools = ccxtools.FemToolsCcx(analysis, _solver(analysis))
+    tools.update_objects()
+    tools.setup_working_dir(str(place))
+    missing = tools.check_prerequisites()
+    if missing:
+        raise SolverFailed(missing.strip(), "complete the analysis")
+    tools.purge_results()
+    tools.write_inp_file()
+    rows = load_check.check(analysis, tools.inp_file_name, strict)
+    code = tools.ccx_run()
+    if code:
+        told = [line for line in tools.ccx_stdout.splitlines() if "ERROR" in line]
+        raise SolverFailed(f"CalculiX ended with {code}: {' '.join(told[:3])}", f"see {place}")
+    tools.load_results()
+    results = [m for m in analysis.Group if m.isDerivedFrom("Fem::FemResultObject")]
+    if not results:
+        raise SolverFailed("CalculiX gave no results", f"see {place}")
+    data = Path(tools.inp_file_name).with_suffix(".dat")
+    return Solution(results[-1], deck.reactions(data), rows, place)
+
+
+def _solver(analysis: Any) -> Any:
+    solvers = [m for m in analysis.Group if m.isDerivedFrom("Fem::FemSolverObjectPython")]
+    if len(solvers) != 1:
+        raise SolverFailed(f"{analysis.Label} has {len(solvers)} solvers", "give it one CalculiX")
+    return solvers[0]
