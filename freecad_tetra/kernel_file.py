@@ -45,11 +45,16 @@ def bring_in(folders: Sequence[Path] = ()) -> ModuleType | None:
 def candidates(folders: Sequence[Path] = ()) -> list[Path]:
     """Return the files that may be the kernel for this Python, in the order of trial."""
     places = sorted(ROOT.glob("build/*/kernel/bindings"))
-    places += sorted(ROOT.glob(".venv/lib*/python*/site-packages"))
-    places += [ROOT / ".venv/Lib/site-packages", *folders]
+    places += [*checkout_packages(), *folders]
     names = [MODULE + suffix for suffix in importlib.machinery.EXTENSION_SUFFIXES]
     found = dict.fromkeys(place / name for place in places for name in names)
     return [path for path in found if path.is_file()]
+
+
+def checkout_packages() -> list[Path]:
+    """Return the folders of packages of the checkout's `.venv`."""
+    found = sorted(ROOT.glob(".venv/lib*/python*/site-packages"))
+    return [*found, ROOT / ".venv/Lib/site-packages"]
 
 
 def load(path: Path) -> ModuleType | None:

@@ -89,6 +89,13 @@ def least_coefficient(values: FloatArray) -> FloatArray:
     return (values[:, : len(LATTICE)] @ _TO_BERNSTEIN.T).min(axis=1)
 
 
+def volumes(corners: Any) -> FloatArray:
+    """Return the volume of curved elements (t,): the mean of the Bernstein coefficients by six."""
+    values = determinants(corners)[:, : len(LATTICE)]
+    out: FloatArray = (values @ _TO_BERNSTEIN.T).mean(axis=1) / 6
+    return out
+
+
 def straight_determinants(corners: Any) -> FloatArray:
     """Return six times the volume of straight tetrahedra, (t,); `corners` (t, 4 or 10, 3)."""
     p = np.asarray(corners, float)

@@ -19,7 +19,7 @@ from typing import Any
 
 import numpy as np
 
-from freecad_tetra.errors import Cancelled, MissingDependency, TetraError
+from freecad_tetra.errors import Cancelled, TetraError
 
 PROGRAMS = ("mmg3d_O3", "mmg3d")
 VARIABLE = "TETRA_MMG3D"  # path of the program, where it is in no usual place
@@ -34,13 +34,19 @@ class RemeshingFailed(TetraError):
     """mmg3d gave no mesh; the message is its own."""
 
 
-def find() -> Path | None:
-    """Return the program: TETRA_MMG3D, inside a package mmgpy, beside Python, or on the PATH."""
+def find(folders: Sequence[str | Path] = ()) -> Path | None:
+    """Return the program: TETRA_MMG3D, inside a package mmgpy, beside Python, or on the PATH.
+
+    Parameters
+    ----------
+    folders : sequence of path
+        Where packages are, besides those of this Python.
+    """
     named = os.environ.get(VARIABLE)
     if named:
         return Path(named) if Path(named).is_file() else None
     # The scripts that pip installs start Python for nothing; the program is in the package.
-    packages = [Path(entry) / "mmgpy" / "bin" for entry in sys.path if entry]
+    packages = [Path(entry) / "mmgpy" / "bin" for entry in (*folders, *sys.path) if entry]
     for place in (*packages, Path(sys.executable).parent):
         for program in PROGRAMS:
             if (place / program).is_file():
@@ -49,20 +55,8 @@ def find() -> Path | None:
     return next((Path(path) for path in found if path), None)
 
 
-def require() -> Path:
-    """Return the program.
-
-    Raises
-    ------
-    MissingDependency
-    """
-    program = find()
-    if program is None:
-        raise MissingDependency("mmg3d", "better elements (quality)", "mmgpy")
-    return program
-
-
 def run(
+    program: Path,
     tables: Mapping[str, Any],
     options: Sequence[str],
     local: str = "",
@@ -73,6 +67,8 @@ def run(
 
     Parameters
     ----------
+    program : Path
+        From `find`.
     tables : mapping of str to array
         Sections of a Medit file, ids from 1: Vertices (n, 3), Triangles (s, 4), Tetrahedra (t, 5),
         Edges (e, 3) with references last, Ridges and Corners (k,).
@@ -87,9 +83,8 @@ def run(
 
     Raises
     ------
-    MissingDependency, RemeshingFailed, Cancelled
+    RemeshingFailed, Cancelled
     """
-    program = require()
     with tempfile.TemporaryDirectory(prefix="tetra_mmg_") as folder:
         source, target = Path(folder, "in.mesh"), Path(folder, "out.mesh")
         source.write_bytes(medit(tables))

@@ -8,6 +8,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field, replace
+from pathlib import Path
 from time import perf_counter
 from typing import Any
 
@@ -39,12 +40,15 @@ class FemOptions:
         Without `quality` only its size counts, by bisection; 0 leaves the elements as they are.
     refine : int
         How often every element is divided into eight.
+    packages : tuple of path
+        Folders where mmgpy may be, besides those of this Python.
     """
 
     order: int = 2
     quality: bool = False
     sizes: remeshing.Sizes = field(default_factory=remeshing.Sizes)
     refine: int = 0
+    packages: tuple[str | Path, ...] = ()
 
 
 def prepare(
@@ -78,9 +82,9 @@ def prepare(
     start = perf_counter()
     done: dict[str, Any] = {"order": wanted.order, "refined": wanted.refine}
     if wanted.quality:
-        _require_mmg(mesh)
+        program = _require_mmg(mesh, wanted.packages)
         _tell(told, "remesh", 0.0)
-        mesh = remeshing.remesh(mesh, wanted.sizes, project, told)
+        mesh = remeshing.remesh(mesh, program, wanted.sizes, project, told)
     elif project is not None:
         _tell(told, "project", 0.0)
         mesh, done["projected_points"], done["unprojected_points"] = projecting.project_points(
@@ -105,15 +109,17 @@ def prepare(
     return _reported(made, done, perf_counter() - start)
 
 
-def _require_mmg(mesh: TetMesh) -> None:
-    """Say what the mesh is like without mmg, when it is missing."""
-    if mmg.find() is None:
+def _require_mmg(mesh: TetMesh, packages: Sequence[str | Path]) -> Path:
+    """Return the program, or say what the mesh is like without it."""
+    program = mmg.find(packages)
+    if program is None:
         least = measuring.quality(mesh).to_dict()["min_dihedral_degrees"]
         raise MissingDependency(
             "mmg3d",
             f"quality (without it the least dihedral angle is {least:.2g} degrees)",
             "mmgpy",
         )
+    return program
 
 
 def _reported(mesh: TetMesh | Tet10Mesh, done: dict[str, Any], seconds: float) -> Any:

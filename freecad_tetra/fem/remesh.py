@@ -11,6 +11,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field, replace
+from pathlib import Path
 from typing import Any
 
 import numpy as np
@@ -60,7 +61,11 @@ class Sizes:
 
 
 def remesh(
-    mesh: TetMesh, sizes: Sizes | None = None, project: Project | None = None, told: Told = None
+    mesh: TetMesh,
+    program: Path,
+    sizes: Sizes | None = None,
+    project: Project | None = None,
+    told: Told = None,
 ) -> TetMesh:
     """Return the same solids in tetrahedra of good shape.
 
@@ -68,6 +73,8 @@ def remesh(
     ----------
     mesh : TetMesh
         With a face id per skin triangle.
+    program : Path
+        From `freecad_tetra.fem.mmg.find`.
     sizes : Sizes, optional
     project : Project, optional
         Takes new boundary points to the CAD.
@@ -82,7 +89,7 @@ def remesh(
 
     Raises
     ------
-    MissingDependency, RemeshingFailed, Cancelled
+    RemeshingFailed, Cancelled
     VerificationFailed
         The area of a face changed by more than 5 %, or the volume by more than 0.5 %.
     """
@@ -93,11 +100,11 @@ def remesh(
     options += ["-hgrad", f"{wanted.growth:.9g}"]
     local = _local(mesh, wanted, size, chord)
     watch = None if told is None else lambda seconds: told("remesh", 1 - 1 / (1 + seconds / 10))
-    made = _settled(_mesh(mesh, mmg.run(_tables(mesh), options, local, watch)), project)
+    made = _settled(_mesh(mesh, mmg.run(program, _tables(mesh), options, local, watch)), project)
     for _ in range(1, PASSES):
         if made.angle >= WANTED_DIHEDRAL:
             break
-        other = _again(made.mesh, chord, watch, project)
+        other = _again(made.mesh, program, chord, watch, project)
         if other is None or other.angle <= made.angle:
             break
         made = other
@@ -134,11 +141,13 @@ def _settled(mesh: TetMesh, project: Project | None) -> _Settled:
     return _Settled(mesh, angle, moved, left, smoothed)
 
 
-def _again(mesh: TetMesh, chord: float, watch: Any, project: Project | None) -> _Settled | None:
+def _again(
+    mesh: TetMesh, program: Path, chord: float, watch: Any, project: Project | None
+) -> _Settled | None:
     """Run mmg for shape alone, at the sizes the mesh has; None when that fails."""
     options = ["-nr", "-optim", "-hausd", f"{chord:.9g}"]
     try:
-        return _settled(_mesh(mesh, mmg.run(_tables(mesh), options, "", watch)), project)
+        return _settled(_mesh(mesh, mmg.run(program, _tables(mesh), options, "", watch)), project)
     except mmg.RemeshingFailed:
         return None
 

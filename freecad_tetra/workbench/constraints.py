@@ -93,7 +93,9 @@ def groups(made: Any, analysis: Any, shape: Any, source: Any = None) -> list[Nam
         if faces:
             for kind, tail in ((meshes.NODES, "Nodes"), (meshes.FACES, "Faces")):
                 ids = [meshes.group_ids(made, f"Face{face + 1}_{tail}") for face in faces]
-                out.append(NamedGroup(f"{member.Name}_{tail}", kind, np.unique(np.concatenate(ids))))
+                out.append(
+                    NamedGroup(f"{member.Name}_{tail}", kind, np.unique(np.concatenate(ids)))
+                )
     return out + _material_groups(made, [m for m in members if is_material(m)], shape, source)
 
 

@@ -79,13 +79,14 @@ def side_nodes(nodes: Any, side: int) -> list[int]:
     return [own[i] for i in (a, b, c, *middles)]
 
 
-def reactions(path: str | Path) -> FloatArray:
-    """Return the sum of all total forces (fx, fy, fz) in a .dat file, (3,) float64."""
-    total, expected = np.zeros(3), False
+def reactions(path: str | Path) -> dict[str, FloatArray]:
+    """Return the total force (3,) of every node set that a .dat file prints, names in capitals."""
+    out: dict[str, FloatArray] = {}
+    name = ""
     for line in Path(path).read_text(errors="replace").splitlines():
         if "total force" in line:
-            expected = True
-        elif expected and line.strip():
-            total += [float(word) for word in line.split()[:3]]
-            expected = False
-    return total
+            name = line.split("for set")[1].split()[0].upper()
+        elif name and line.strip():
+            out[name] = np.array([float(word) for word in line.split()[:3]])
+            name = ""
+    return out

@@ -15,7 +15,7 @@ from typing import Any
 import FreeCAD
 import numpy as np
 
-from freecad_tetra import brep
+from freecad_tetra import brep, kernel_file
 from freecad_tetra.errors import BadOption, TetraError
 from freecad_tetra.fem.prepare import FemOptions, prepare
 from freecad_tetra.fem.remesh import Sizes
@@ -115,9 +115,9 @@ def options_of(obj: Any, names: tuple[str, ...]) -> FemOptions:
     by_number = {names.index(name): size for name, size in sizes.items()}
     size = compat.millimetres(obj.ElementSize) or None
     turn = float(obj.ElementsPerTurn)
-    return FemOptions(
-        _order(obj.Order), bool(obj.Quality), Sizes(size, None, turn, by_number), obj.Refinement
-    )
+    sizes = Sizes(size, None, turn, by_number)
+    packages = (*compat.package_folders(), *kernel_file.checkout_packages())
+    return FemOptions(_order(obj.Order), bool(obj.Quality), sizes, obj.Refinement, packages)
 
 
 def face_sizes(lines: Any) -> dict[str, float]:

@@ -103,9 +103,13 @@ def forces(analysis: Any, path: str | Path) -> list[Row]:
     """
     written = deck.read(path)
     out = []
-    asked = [m for m in constraints.constraints_of(analysis) if m.isDerivedFrom("Fem::ConstraintForce")]
+    asked = [
+        m for m in constraints.constraints_of(analysis) if m.isDerivedFrom("Fem::ConstraintForce")
+    ]
     pressed = [
-        m for m in constraints.constraints_of(analysis) if m.isDerivedFrom("Fem::ConstraintPressure")
+        m
+        for m in constraints.constraints_of(analysis)
+        if m.isDerivedFrom("Fem::ConstraintPressure")
     ]
     if asked:
         total = sum(compat.newtons(m.Force) * np.array(tuple(m.DirectionVector)) for m in asked)

@@ -25,8 +25,9 @@ class Solution:
     ----------
     result : Fem::FemResultObject
         FreeCAD's own, with displacements and stresses.
-    reaction : (3,) float64
-        Sum of the forces at all supports, N.
+    reactions : mapping of str to (3,) float64
+        Force at every support, N; names of constraints in capitals. Nodes of two supports count
+        in both.
     rows : list of Row
         The loads, compared.
     folder : Path
@@ -34,7 +35,7 @@ class Solution:
     """
 
     result: Any
-    reaction: FloatArray
+    reactions: dict[str, FloatArray]
     rows: list[load_check.Row]
     folder: Path
 

@@ -46,7 +46,7 @@ class Mesh(InDocument):
                 )
             else:
                 self.assertTrue(np.isin(faces, tets).all())
-                self.assertAlmostEqual(obj.FemMesh.Volume.Value / block.Shape.Volume, 1, delta=1e-4)
+                self.assertAlmostEqual(obj.FemMesh.Volume.Value / block.Shape.Volume, 1, delta=1e-3)
 
     def test_triangles_are_the_skin_and_look_outward(self) -> None:
         obj = feature.make_fem_mesh(self.doc, self.feature_of(angle_block()), order=1)
