@@ -7,8 +7,10 @@ FreeCAD brings, and a crash of it must not take the caller along.
 
 from __future__ import annotations
 
+import ctypes
 import os
 import shutil
+import signal
 import subprocess
 import sys
 import tempfile
@@ -122,6 +124,7 @@ def _watched(
         process = subprocess.Popen(
             command, cwd=folder, env=dict(environment), stdin=subprocess.DEVNULL,
             stdout=stream, stderr=subprocess.STDOUT,
+            preexec_fn=_die_with_parent if sys.platform == "linux" else None,
         )  # fmt: skip
         try:
             while True:
@@ -142,6 +145,11 @@ def _watched(
                 process.kill()
                 process.wait()
     return log.read_text(errors="replace"), code
+
+
+def _die_with_parent() -> None:
+    """Ask Linux to end the program when its caller is killed, and not to work on for nobody."""
+    ctypes.CDLL(None).prctl(1, int(signal.SIGKILL))
 
 
 def _reason(text: str) -> str:

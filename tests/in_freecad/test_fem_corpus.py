@@ -6,6 +6,7 @@ By default a part may be refused, but by the tool and before the solver runs.
 
 from __future__ import annotations
 
+import os
 import unittest
 from typing import Any
 
@@ -19,11 +20,13 @@ from freecad_tetra.fem.quality import GOOD_DIHEDRAL, quality_of
 from freecad_tetra.workbench import feature, fem_mesh, load_check, solve
 
 PARTS = (
-    "Page_096_Exercise3D-37_byHannu", "Page_048_Exercise2D-40_byHannu",
+    "Page_096_Exercise3D-37_byHannu", "Page_053_Exercise2D-45_byHannu",
     "Page_070_Exercise3D-11_byHannu", "Page_079_Exercise3D-20_byHannu",
     "Page_080_Exercise3D-21_byHannu", "Page_108_Exercise3D-49_v2_byHannu",
-    "Page_087_Exercise3D-28_byHannu", "page67_bynormandc", "example_3", "page68_bybejant",
+    "WhiffleBall_Tutorial_FCWiki", "page67_bynormandc", "example_3", "page68_bybejant",
 )  # fmt: skip
+# All of them take an hour on a busy machine: TETRA_ALL_PARTS=1 asks for that.
+REMESHED = PARTS if os.environ.get("TETRA_ALL_PARTS") else (PARTS[1], PARTS[4], PARTS[8])
 
 
 def chosen_faces(shape: Any) -> tuple[str, str]:
@@ -87,7 +90,7 @@ class TenParts(InAnalysis):
                 self.tearDown()
 
     def test_with_quality(self) -> None:
-        for name in PARTS:
+        for name in REMESHED:
             with self.subTest(name):
                 self.setUp()
                 part, mesh = self.loaded(name, Quality=True)
