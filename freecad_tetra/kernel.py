@@ -27,6 +27,7 @@ from freecad_tetra.errors import (
     KernelMissing,
     VerificationFailed,
 )
+from freecad_tetra.labels import Labels, distinct
 from freecad_tetra.model import (
     ConvexCells,
     FloatArray,
@@ -114,7 +115,20 @@ class Validation:
             self.solid.name,
             self.solid_id,
             self.solid.notes,
+            self.labels(),
         )
+
+    def labels(self) -> Labels:
+        """Return the caller's names, solids as `solid_id` counts them."""
+        given, ids = self.solid.labels, self.solid.solid_ids
+        if ids is None or not any(given.solids):
+            return Labels((), given.faces)
+        numbers, first = np.unique(self.solid_id, return_index=True)
+        names = [""] * (int(numbers.max(initial=-1)) + 1)
+        for number, triangle in zip(numbers.tolist(), self.triangle_source[first].tolist()):
+            source = int(ids[triangle])
+            names[number] = given.solids[source] if source < len(given.solids) else ""
+        return Labels(distinct(names), given.faces)
 
     def crosses_itself(self) -> bool:
         """Return whether a finer tessellation may help."""
@@ -209,6 +223,7 @@ def convex_cells(
         cell_solid=found["cell_solid"],
         point_source=found["point_source"],
         face_names=checked.solid.face_names,
+        labels=checked.labels(),
     )
     report = _report(found["report"], checked, perf_counter() - start)
     return replace(cells, report=_with_volume(report, checked, cells.volumes()))
@@ -252,6 +267,7 @@ def tetrahedralize(
         tet_solid=found["tet_solid"],
         point_source=found["point_source"],
         face_names=checked.solid.face_names,
+        labels=checked.labels(),
     )
     report = _report(found["report"], checked, perf_counter() - start)
     return replace(mesh, report=_with_volume(report, checked, mesh.volumes()))

@@ -15,13 +15,17 @@ from typing import Any
 import numpy as np
 import numpy.typing as npt
 
+from freecad_tetra.conversions import CellConversions, TetConversions
 from freecad_tetra.errors import Defect, InvalidSolid
+from freecad_tetra.labels import Labels
 
 FloatArray = npt.NDArray[np.float64]
 IntArray = npt.NDArray[np.int32]
 LongArray = npt.NDArray[np.int64]
 
-__all__ = ["Cell", "ConvexCells", "Defect", "Report", "Solid", "TetMesh", "frozen_array"]
+__all__ = [
+    "Cell", "ConvexCells", "Defect", "Labels", "Report", "Solid", "TetMesh", "frozen_array",
+]  # fmt: skip
 
 
 def frozen_array(values: Any, dtype: Any, shape: tuple[int, ...]) -> npt.NDArray[Any]:
@@ -86,6 +90,8 @@ class Solid:
         B-rep solid of each triangle; None when the surface itself has to tell.
     notes : mapping
         How the surface was made (deflections, retries, volume of the B-rep).
+    labels : Labels
+        Names that the caller gave to solids (as `solid_ids` count) and to groups of faces.
     """
 
     vertices: FloatArray
@@ -95,6 +101,7 @@ class Solid:
     name: str = ""
     solid_ids: IntArray | None = None
     notes: Mapping[str, Any] = field(default_factory=dict)
+    labels: Labels = Labels()
 
     def __post_init__(self) -> None:
         _freeze(self, "vertices", np.float64, -1, 3)
@@ -238,7 +245,7 @@ class Cell:
 
 
 @dataclass(frozen=True, eq=False)
-class ConvexCells:
+class ConvexCells(CellConversions):
     """A partition of a solid into closed convex polyhedra.
 
     Attributes
@@ -258,6 +265,8 @@ class ConvexCells:
         Input vertex, or -1 for a point that was made.
     face_names : tuple of str
     report : Report
+    labels : Labels
+        Names that the caller gave to solids and to groups of faces.
     """
 
     points: FloatArray
@@ -270,6 +279,7 @@ class ConvexCells:
     point_source: IntArray
     face_names: tuple[str, ...] = ()
     report: Report = field(default_factory=Report)
+    labels: Labels = Labels()
 
     def __post_init__(self) -> None:
         _freeze(self, "points", np.float64, -1, 3)
@@ -326,7 +336,7 @@ class ConvexCells:
 
 
 @dataclass(frozen=True, eq=False)
-class TetMesh:
+class TetMesh(TetConversions):
     """Face-to-face tetrahedra that fill a solid.
 
     Attributes
@@ -345,6 +355,8 @@ class TetMesh:
         Input vertex, or -1 for a Steiner point.
     face_names : tuple of str
     report : Report
+    labels : Labels
+        Names that the caller gave to solids and to groups of faces.
     """
 
     points: FloatArray
@@ -356,6 +368,7 @@ class TetMesh:
     point_source: IntArray
     face_names: tuple[str, ...] = ()
     report: Report = field(default_factory=Report)
+    labels: Labels = Labels()
 
     def __post_init__(self) -> None:
         _freeze(self, "points", np.float64, -1, 3)

@@ -3,7 +3,8 @@
 """Check that layers include and import only what docs/decisions and DESIGN 6 allow them to.
 
 C++: exact <- solid <- polygon <- {notch | fence} <- assemble <- bindings.
-Python: errors <- model <- {kernel | brep | io | export | fem} <- {cli | workbench}.
+Python: errors <- model <- {kernel | brep | io | export | fem} <- adapters <- api <- {cli |
+workbench}.
 FreeCAD and OCP are never imported in one module, as one process cannot hold both.
 
 Usage: ``check_layers.py ROOT``; prints one line per breach, exit status 1 when there is one.
@@ -29,6 +30,8 @@ CXX_ALLOWED: dict[str, set[str]] = {
 PYTHON_RANK = {
     "_version": 0,
     "errors": 0,
+    "labels": 0,
+    "conversions": 0,
     "model": 1,
     "kernel": 2,
     "brep": 2,
@@ -38,11 +41,13 @@ PYTHON_RANK = {
     "directions": 2,
     "fem": 2,
     "check": 2,
-    "api": 3,
-    "__init__": 4,
-    "cli": 5,
-    "__main__": 6,
-    "workbench": 5,
+    "adapters": 3,
+    "api": 4,
+    "__init__": 5,
+    "cli": 6,
+    "cq": 6,
+    "__main__": 7,
+    "workbench": 6,
 }
 # Modules of equal rank see nothing of each other, save for these, which serve all of their rank.
 PYTHON_SHARED = {"_version", "errors"}
