@@ -13,7 +13,7 @@ from os import PathLike, fspath
 from pathlib import Path
 from typing import Any
 
-from freecad_tetra import brep, directions, kernel
+from freecad_tetra import brep, directions, kernel, limits
 from freecad_tetra.errors import (
     Cancelled,
     Defect,
@@ -113,6 +113,8 @@ def convex_cells(
     plain: bool = False,
     merge: bool = True,
     flatness: int | None = None,
+    max_cells: int | None = None,
+    max_vertices: int | None = None,
     progress: Progress | None = None,
     **reading: Any,
 ) -> ConvexCells:
@@ -128,6 +130,9 @@ def convex_cells(
         Merge neighbours whose union is convex.
     flatness : int, optional
         Grid steps within which facets of one plane count as coplanar.
+    max_cells, max_vertices : int, optional
+        Limits of a physics engine: cells are merged into hulls that cover the part and no
+        longer partition it, at an error that is reported; see `freecad_tetra.limits.limit`.
     progress : callable, optional
         ``progress(stage, fraction)``; returning False cancels.
     **reading
@@ -141,7 +146,11 @@ def convex_cells(
     options: dict[str, Any] = {"method": method, "plain": plain, "merge": merge}
     if flatness is not None:
         options["flatness"] = flatness
-    return kernel.convex_cells(validate(source, progress=progress, **reading), options, progress)
+    found = validate(source, progress=progress, **reading)
+    cells = kernel.convex_cells(found, options, progress)
+    if max_cells is None and max_vertices is None:
+        return cells
+    return limits.limit(cells, max_cells, max_vertices, progress)
 
 
 def tetrahedralize(

@@ -273,6 +273,22 @@ def tetrahedralize(
     return replace(mesh, report=_with_volume(report, checked, mesh.volumes()))
 
 
+def limit_cells(
+    cells: ConvexCells, max_cells: int, max_vertices: int, progress: Progress | None = None
+) -> dict[str, Any]:
+    """Merge convex cells within limits (0: none), as the arrays of the kernel.
+
+    Raises
+    ------
+    BadOption, Cancelled, KernelMissing
+    """
+    solid = Solid(cells.points, np.zeros((0, 3), np.int32))
+    return _call(
+        "limit_cells", solid, None, cells.points, cells.facet_offsets, cells.facet_vertices,
+        cells.facet_source, cells.cell_offsets, cells.cell_solid, max_cells, max_vertices, progress,
+    )  # fmt: skip
+
+
 def triangulate_polygon(points: Any, loops: Sequence[Any]) -> IntArray:
     """Triangulate a planar polygon with holes, exactly, O(n log n).
 

@@ -41,6 +41,8 @@ PYTHON_RANK = {
     "directions": 2,
     "fem": 2,
     "check": 2,
+    "mass": 2,
+    "limits": 3,
     "adapters": 3,
     "api": 4,
     "__init__": 5,
