@@ -19,6 +19,7 @@ from freecad_tetra.api import (
     write,
 )
 from freecad_tetra.errors import (
+    BadOption,
     Cancelled,
     Defect,
     InvalidPolygon,
@@ -30,9 +31,10 @@ from freecad_tetra.errors import (
     UnsupportedFormat,
     VerificationFailed,
 )
-from freecad_tetra.model import Cell, ConvexCells, Report, Solid, TetMesh
+from freecad_tetra.model import Cell, ConvexCells, Labels, Report, Solid, TetMesh
 
 __all__ = [
+    "BadOption",
     "Cancelled",
     "Cell",
     "ConvexCells",
@@ -40,6 +42,7 @@ __all__ = [
     "InvalidPolygon",
     "InvalidSolid",
     "KernelMissing",
+    "Labels",
     "MissingDependency",
     "Report",
     "Solid",

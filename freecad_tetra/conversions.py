@@ -100,6 +100,10 @@ class TetConversions(Conversions):
         """Return the skin as one ``trimesh.Trimesh`` with the face attribute ``face``."""
         return _adapter("trimesh").skin(self)
 
+    def write_drake(self, path: str | PathLike[str], **options: Any) -> Path:
+        """Write an SDF of a compliant body; see `freecad_tetra.export.drake.write_drake`."""
+        return _export("drake").write_drake(self, path, **options)  # type: ignore[no-any-return]
+
 
 def _export(name: str) -> Any:
     return importlib.import_module(f"freecad_tetra.export.{name}")

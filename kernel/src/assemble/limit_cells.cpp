@@ -39,7 +39,11 @@ std::vector<MergedHull> unmerged(const std::vector<std::vector<int>>& cells) {
 class Limiter {
   public:
     Limiter(const CellArrays& part, const Limits& limits, Progress& progress)
-        : part_(part), limits_(limits), progress_(progress), cells_(points_of_cells(part)) {
+        : part_(part),
+          limits_(limits),
+          progress_(progress),
+          distance_(part),
+          cells_(points_of_cells(part)) {
         result_.points = part.points;
     }
 
@@ -47,9 +51,8 @@ class Limiter {
         const bool too_many =
             limits_.max_cells > 0 && cells_.size() > static_cast<std::size_t>(limits_.max_cells);
         const std::vector<MergedHull> hulls =
-            too_many
-                ? merge_hulls(part_.points, cells_, part_.cell_solid, limits_.max_cells, progress_)
-                : unmerged(cells_);
+            too_many ? merge_hulls(part_, cells_, distance_, limits_.max_cells, progress_)
+                     : unmerged(cells_);
         for (const MergedHull& hull : hulls) add(hull);
         if (!changed_.empty()) measure();
         return std::move(result_);
@@ -65,6 +68,7 @@ class Limiter {
     const CellArrays& part_;
     const Limits& limits_;
     Progress& progress_;
+    PartDistance distance_;
     std::vector<std::vector<int>> cells_;
     std::vector<Changed> changed_;
     LimitedCells result_;
@@ -136,20 +140,17 @@ class Limiter {
     void measure() {
         std::stable_sort(changed_.begin(), changed_.end(),
                          [](const Changed& x, const Changed& y) { return x.growth6 > y.growth6; });
-        const PartDistance distance(part_);
-        HullError merged;
+        HullError whole, merged;
         double simplified = 0;
         for (const Changed& change : changed_) {
-            raise_to(merged, part_.points, change.hull, distance, progress_);
-            simplified = std::max(simplified, change.simplified);
             result_.volume_added += change.growth6 / 6;
-            for (const Triangle& t : change.triangles)
-                for (const int i : t)
-                    result_.error_found =
-                        std::max(result_.error_found, distance(result_.points[at(i)]));
+            raise_to(whole, result_.points, change.triangles, distance_, progress_);
+            raise_to(merged, part_.points, change.hull, distance_, progress_);
+            simplified = std::max(simplified, change.simplified);
         }
-        result_.error = merged.bound + simplified;
-        result_.error_found = std::max(result_.error_found, merged.found);
+        // From the surface of a piece to its hull, and on to the part.
+        result_.error = std::min(whole.bound, merged.bound + simplified);
+        result_.error_found = whole.found;
     }
 };
 

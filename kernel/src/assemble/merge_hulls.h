@@ -1,12 +1,11 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-// Convex cells are merged into fewer hulls, those first whose common hull adds least.
+// Convex cells are merged into fewer hulls, those first whose common hull strays least.
 #pragma once
 
 #include <vector>
 
-#include "tetra/exact/grid.h"
+#include "part_distance.h"
 #include "tetra/progress.h"
-#include "tetra/solid/grid_solid.h"
 
 namespace tetra {
 
@@ -14,17 +13,19 @@ namespace tetra {
 struct MergedHull {
     std::vector<int> cells;           // increasing
     std::vector<int> points;          // ids of the hull's vertices, increasing
-    std::vector<Triangle> triangles;  // of the same ids; empty for a single cell
+    std::vector<Triangle> triangles;  // of the same ids; flat cells have none
     double volume6 = 0;               // six times the hull's volume
+    double stray = 0;                 // how far its surface was seen to be from the part
 };
 
-// Merges cells, given as the ids of their points and their solid, until at most `most` are left.
-// Greedy, by a heap over pairs: the pair of one solid whose common hull has the least volume above
-// that of the two. Pairs share a point, or, when none of those is left, are any two of a solid.
-// O(p log p) for p pairs, and a hull for each. There must be no more solids than `most`.
-std::vector<MergedHull> merge_hulls(const std::vector<Vec3d>& points,
+// Merges the cells of a part, given as the increasing ids of their points, until at most `most`
+// are left. Greedy, by a heap over pairs: the two hulls of one solid whose common hull strays
+// least from the part, and among equals those that grow least. How far a hull strays is sampled on
+// the facets that bridge from one to the other. Pairs share a point, or, when none of those is
+// left, are any two of a solid. O(p log p) for p pairs, with a hull and some distances for each.
+// There must be no more solids than `most`.
+std::vector<MergedHull> merge_hulls(const CellArrays& part,
                                     const std::vector<std::vector<int>>& cells,
-                                    const std::vector<int>& cell_solid, int most,
-                                    Progress& progress);
+                                    const PartDistance& distance, int most, Progress& progress);
 
 }  // namespace tetra

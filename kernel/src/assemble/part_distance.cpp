@@ -39,6 +39,8 @@ std::vector<FloatBox> boxes_of_triangles(std::span<const Vec3d> points,
     return boxes;
 }
 
+constexpr double kTouching = 1e-9;  // of the part's size
+
 double square(double x) { return x * x; }
 
 double distance2_to_segment(const Vec3d& p, const Vec3d& a, const Vec3d& b) {
@@ -61,6 +63,23 @@ double distance2_to_triangle(const Vec3d& p, const Vec3d& a, const Vec3d& b, con
 }
 
 }  // namespace
+
+Ball ball_around(const Corners& corners) {
+    Ball ball{{}, 0};
+    for (const Vec3d& p : corners)
+        for (std::size_t k = 0; k < 3; ++k) ball.middle[k] += p[k] / 3;
+    for (const Vec3d& p : corners) ball.radius = std::max(ball.radius, norm(minus(p, ball.middle)));
+    return ball;
+}
+
+std::array<Corners, 4> quarters(const Corners& corners) {
+    const auto& [a, b, c] = corners;
+    const auto between = [](const Vec3d& u, const Vec3d& v) {
+        return Vec3d{(u[0] + v[0]) / 2, (u[1] + v[1]) / 2, (u[2] + v[2]) / 2};
+    };
+    const Vec3d ab = between(a, b), bc = between(b, c), ca = between(c, a);
+    return {{{ab, bc, ca}, {a, ab, ca}, {ab, b, bc}, {ca, bc, c}}};
+}
 
 double beyond(const HalfSpace& half, const Vec3d& p) { return dot(half.normal, p) - half.height; }
 
@@ -105,10 +124,19 @@ PartDistance::PartDistance(const CellArrays& part)
     for (std::size_t c = 0; c < part.cell_solid.size(); ++c)
         halves_.push_back(
             half_spaces(points_, fans(part, part.cell_offsets[c], part.cell_offsets[c + 1])));
+    FloatBox box;
+    for (const int i : part.facet_vertices) box.add(points_[at(i)]);
+    if (!part.facet_vertices.empty()) touching_ = kTouching * norm(minus(box.high, box.low));
+}
+
+bool PartDistance::inside(std::size_t cell, const Vec3d& p) const {
+    const std::vector<HalfSpace>& halves = halves_[cell];
+    return std::all_of(halves.begin(), halves.end(),
+                       [&](const HalfSpace& h) { return beyond(h, p) <= touching_; });
 }
 
 double PartDistance::operator()(const Vec3d& p) const {
-    if (contains_ball(p, 0)) return 0;
+    if (in_one_cell({p, p, p})) return 0;
     double nearest2 = std::numeric_limits<double>::infinity();
     surface_.visit_near(p, nearest2, [&](int t) {
         const Triangle& s = skin_[at(t)];
@@ -118,16 +146,14 @@ double PartDistance::operator()(const Vec3d& p) const {
     return std::sqrt(nearest2);
 }
 
-bool PartDistance::contains_ball(const Vec3d& p, double radius) const {
-    double reach2 = 0;
+bool PartDistance::in_one_cell(const Corners& corners) const {
+    double reach2 = touching_ * touching_;
     bool found = false;
-    cells_.visit_near(p, reach2, [&](int c) {
-        const std::vector<HalfSpace>& halves = halves_[at(c)];
-        const auto within = [&](const HalfSpace& h) { return beyond(h, p) <= -radius; };
-        if (std::all_of(halves.begin(), halves.end(), within)) {
-            found = true;
-            reach2 = -1;
-        }
+    cells_.visit_near(ball_around(corners).middle, reach2, [&](int c) {
+        const auto within = [&](const Vec3d& p) { return inside(at(c), p); };
+        if (found || !std::all_of(corners.begin(), corners.end(), within)) return;
+        found = true;
+        reach2 = -1;
     });
     return found;
 }
