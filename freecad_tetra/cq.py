@@ -1,10 +1,10 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """Functions for ``Workplane.invoke``; importing this adds them as methods to cadquery's classes.
 
-    import freecad_tetra.cq
-    mesh = part.tetrahedralize()       # a TetMesh
-    cells = part.convexCells()         # a Workplane with one solid per cell
-    part.invoke(freecad_tetra.cq.convex_cells)
+import freecad_tetra.cq
+mesh = part.tetrahedralize()       # a TetMesh
+cells = part.convexCells()         # a Workplane with one solid per cell
+part.invoke(freecad_tetra.cq.convex_cells)
 """
 
 from __future__ import annotations

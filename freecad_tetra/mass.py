@@ -64,9 +64,7 @@ def of_cells(cells: ConvexCells) -> MassProperties:
     """Return the mass properties of the part, also when its cells have been merged since."""
     kept = cells.report.details.get(_DETAIL)
     if kept is not None:
-        return MassProperties(
-            kept["volume"], np.array(kept["centre"]), np.array(kept["inertia"])
-        )
+        return MassProperties(kept["volume"], np.array(kept["centre"]), np.array(kept["inertia"]))
     triangles, _ = cells.fans()
     return of_surface(cells.points, triangles)
 

@@ -101,7 +101,7 @@ class Solid:
     name: str = ""
     solid_ids: IntArray | None = None
     notes: Mapping[str, Any] = field(default_factory=dict)
-    labels: Labels = Labels()
+    labels: Labels = field(default_factory=Labels)
 
     def __post_init__(self) -> None:
         _freeze(self, "vertices", np.float64, -1, 3)
@@ -279,7 +279,7 @@ class ConvexCells(CellConversions):
     point_source: IntArray
     face_names: tuple[str, ...] = ()
     report: Report = field(default_factory=Report)
-    labels: Labels = Labels()
+    labels: Labels = field(default_factory=Labels)
 
     def __post_init__(self) -> None:
         _freeze(self, "points", np.float64, -1, 3)
@@ -368,7 +368,7 @@ class TetMesh(TetConversions):
     point_source: IntArray
     face_names: tuple[str, ...] = ()
     report: Report = field(default_factory=Report)
-    labels: Labels = Labels()
+    labels: Labels = field(default_factory=Labels)
 
     def __post_init__(self) -> None:
         _freeze(self, "points", np.float64, -1, 3)

@@ -55,7 +55,5 @@ def plot(result: ConvexCells | TetMesh, explode: float, options: dict[str, Any])
     pieces = whole.explode(explode) if explode else whole
     order = np.random.default_rng(0).permutation(max(1, len(result)))
     pieces.cell_data["colour"] = order[pieces.cell_data["piece"]]
-    plotter.add_mesh(
-        pieces, scalars="colour", cmap="turbo", show_edges=True, show_scalar_bar=False
-    )
+    plotter.add_mesh(pieces, scalars="colour", cmap="turbo", show_edges=True, show_scalar_bar=False)
     return plotter.show(**shown)

@@ -21,9 +21,7 @@ def cells(result: ConvexCells) -> list[Any]:
     """
     trimesh = require("trimesh", "handing cells to trimesh")
     names = [result.labels.solid(s) for s in result.cell_solid.tolist()]
-    return [
-        _closed(trimesh, cell, {"cell": k, "solid": names[k]}) for k, cell in enumerate(result)
-    ]
+    return [_closed(trimesh, cell, {"cell": k, "solid": names[k]}) for k, cell in enumerate(result)]
 
 
 def _closed(trimesh: Any, cell: Cell, metadata: dict[str, Any]) -> Any:

@@ -8,7 +8,7 @@ FreeCAD this package refuses to load OCP.
 from __future__ import annotations
 
 import sys
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 from os import PathLike
 from typing import Any
 
@@ -49,7 +49,7 @@ class Shape:
 
     shape: Any
     name: str = ""
-    labels: Labels = Labels()
+    labels: Labels = field(default_factory=Labels)
 
     def tessellate(self, deflection: Deflection, only: int | None, name: str = "") -> Solid:
         """Tessellate it; see `freecad_tetra.brep.tessellate`."""

@@ -156,7 +156,6 @@ def _found(table: Any, shape: Any, kind: Any) -> list[int]:
     return [i for i in ids if i >= 0]
 
 
-
 def _remnants(table: Any, shape: Any) -> list[int]:
     """Return the 0-based numbers of the faces that are left of the faces of `shape`."""
     faces = [table.FindKey(i + 1) for i in range(table.Extent())]

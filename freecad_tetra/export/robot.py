@@ -97,9 +97,9 @@ def write_tree(root: ElementTree.Element, path: str | PathLike[str], remark: str
     return Path(os.fspath(path))
 
 
-def child(parent: ElementTree.Element, tag: str, text: str = "", **attributes: str) -> (
-    ElementTree.Element
-):
+def child(
+    parent: ElementTree.Element, tag: str, text: str = "", **attributes: str
+) -> ElementTree.Element:
     """Return a new element below `parent`."""
     made = ElementTree.SubElement(parent, tag, attributes)
     made.text = text or None

@@ -33,10 +33,21 @@ class StoredCells:
 
 @dataclass(frozen=True)
 class StoredTets:
-    """Tetrahedra of a file: points (p, 3) float64, tets (t, 4) int64."""
+    """Tetrahedra of a file.
+
+    Attributes
+    ----------
+    points : (p, 3) float64
+    tets : (t, 4) int64
+    skin : (s, 3) int64
+    skin_face : (s,) int64
+        B-rep faces, -1 where the file tells none.
+    """
 
     points: FloatArray
     tets: LongArray
+    skin: LongArray
+    skin_face: LongArray
 
 
 def read_result(path: str | PathLike[str]) -> StoredCells | StoredTets:
@@ -99,9 +110,14 @@ def _vtu(data: bytes) -> StoredCells | StoredTets:
     points = arrays["Points"].reshape(-1, 3).astype(np.float64)
     types = arrays["types"]
     if np.isin(types, (*_TETS, *_SKIN)).all():
-        starts = np.append(0, arrays["offsets"])[:-1][np.isin(types, _TETS)]
-        corners = starts.astype(np.int64)[:, None] + np.arange(4)
-        return StoredTets(points, arrays["connectivity"][corners].astype(np.int64))
+        starts = np.append(0, arrays["offsets"])[:-1].astype(np.int64)
+        solid = np.isin(types, _TETS)
+        tets, skin = (
+            arrays["connectivity"][starts[rows][:, None] + np.arange(count)].astype(np.int64)
+            for rows, count in ((solid, 4), (~solid, 3))
+        )
+        face = arrays.get("face", np.full(len(types), -1))[~solid].astype(np.int64)
+        return StoredTets(points, tets, skin, face)
     if not (types == _POLYHEDRON).all():
         raise BadFile("it holds cells that are neither tetrahedra nor polyhedra")
     return StoredCells(points, tuple(_polyhedra(arrays["faces"].astype(np.int64), len(types))))
