@@ -25,7 +25,7 @@ class Conversions:
 
     def write(self, path: str | PathLike[str], order: int = 1) -> Path:
         """Write the result to a file by its suffix; see `freecad_tetra.export.write`."""
-        return importlib.import_module("freecad_tetra.export").write(self, path, order)  # type: ignore[no-any-return]
+        return importlib.import_module("freecad_tetra.export").write(self, path, order)
 
     def to_scene(self) -> Any:
         """Return a ``trimesh.Scene``: one mesh per convex cell, or one skin per solid."""
@@ -78,19 +78,19 @@ class CellConversions(Conversions):
 
     def write_parts(self, folder: str | PathLike[str], suffix: str = ".obj") -> list[Path]:
         """Write each cell to a file of its own; see `freecad_tetra.export.parts.write_parts`."""
-        return _export("parts").write_parts(self, folder, suffix)  # type: ignore[no-any-return]
+        return _export("parts").write_parts(self, folder, suffix)
 
     def write_mjcf(self, path: str | PathLike[str], **options: Any) -> Path:
         """Write a MuJoCo model; see `freecad_tetra.export.mjcf.write_mjcf`."""
-        return _export("mjcf").write_mjcf(self, path, **options)  # type: ignore[no-any-return]
+        return _export("mjcf").write_mjcf(self, path, **options)
 
     def write_urdf(self, path: str | PathLike[str], **options: Any) -> Path:
         """Write a URDF; see `freecad_tetra.export.urdf.write_urdf`."""
-        return _export("urdf").write_urdf(self, path, **options)  # type: ignore[no-any-return]
+        return _export("urdf").write_urdf(self, path, **options)
 
     def write_sdf(self, path: str | PathLike[str], **options: Any) -> Path:
         """Write an SDF; see `freecad_tetra.export.sdf.write_sdf`."""
-        return _export("sdf").write_sdf(self, path, **options)  # type: ignore[no-any-return]
+        return _export("sdf").write_sdf(self, path, **options)
 
 
 class TetConversions(Conversions):
@@ -102,7 +102,7 @@ class TetConversions(Conversions):
 
     def write_drake(self, path: str | PathLike[str], **options: Any) -> Path:
         """Write an SDF of a compliant body; see `freecad_tetra.export.drake.write_drake`."""
-        return _export("drake").write_drake(self, path, **options)  # type: ignore[no-any-return]
+        return _export("drake").write_drake(self, path, **options)
 
 
 def _export(name: str) -> Any:

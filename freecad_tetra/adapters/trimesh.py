@@ -81,7 +81,10 @@ def solid_of_scene(whole: Any) -> Solid:
         ``empty`` when the scene holds no mesh.
     """
     points: list[FloatArray] = []
-    triangles, owners, names, count = [], [], [], 0
+    triangles: list[Any] = []
+    owners: list[Any] = []
+    names: list[str] = []
+    count = 0
     for node in whole.graph.nodes_geometry:
         matrix, name = whole.graph[node]
         mesh = whole.geometry[name]

@@ -90,7 +90,8 @@ def _workplane(plane: Any) -> NamedShape | None:
             shape = as_shape(plane.findSolid()) or shape
     if shape is None:
         return None
-    solids, faces = [], []
+    solids: list[tuple[str, Any]] = []
+    faces: list[tuple[str, Any]] = []
     for name, tagged in plane.ctx.tags.items():
         for value in tagged.vals():
             part = as_shape(value)

@@ -115,20 +115,27 @@ def _has_objects(path: str) -> bool:
 
 
 def _tets(stored: results.StoredTets) -> TetMesh:
-    none = np.zeros(0, np.int32)
     return TetMesh(
-        stored.points, stored.tets, stored.skin, stored.skin_face,
-        np.full(len(stored.skin), -1), np.zeros(len(stored.tets)), none,
-    )  # fmt: skip
+        stored.points,
+        stored.tets.astype(np.int32),
+        stored.skin.astype(np.int32),
+        stored.skin_face.astype(np.int32),
+        np.full(len(stored.skin), -1, np.int32),
+        np.zeros(len(stored.tets), np.int32),
+        np.full(len(stored.points), -1, np.int32),
+    )
 
 
 def _cells(stored: results.StoredCells) -> ConvexCells:
     loops = [loop for cell in stored.cells for loop in cell]
-    unknown = np.full(len(loops), -1)
+    unknown = np.full(len(loops), -1, np.int32)
     return ConvexCells(
         stored.points,
         np.append(0, np.cumsum([len(loop) for loop in loops])),
-        np.concatenate(loops),
+        np.concatenate(loops).astype(np.int32),
         np.append(0, np.cumsum([len(cell) for cell in stored.cells])),
-        unknown, unknown, np.zeros(len(stored.cells)), np.full(len(stored.points), -1),
-    )  # fmt: skip
+        unknown,
+        unknown,
+        np.zeros(len(stored.cells), np.int32),
+        np.full(len(stored.points), -1, np.int32),
+    )

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""How well convex hulls stand for a part, by sampling with VTK and boolean operations of manifold3d.
+"""How well convex hulls stand for a part: samples with VTK, volumes with manifold3d.
 
 Independent of the kernel: it knows triangles only.
 """
