@@ -25,10 +25,11 @@ $(STAMPS)/debian: tools/install_debian.sh
 	tools/install_debian.sh
 	touch $@
 
-$(STAMPS)/venv: $(STAMPS)/debian tools/requirements.txt
+$(STAMPS)/venv: $(STAMPS)/debian tools/requirements.txt tools/requirements-no-deps.txt
 	[ -x $(BIN)/python ] || $(PYTHON) -m venv .venv
 	$(BIN)/python -m pip install --quiet --upgrade pip
 	$(BIN)/python -m pip install --quiet -r tools/requirements.txt
+	$(BIN)/python -m pip install --quiet --no-deps -r tools/requirements-no-deps.txt
 	touch $@
 
 # Editable, so changed Python needs nothing; objects stay in build/<tag>, so a changed C++ file

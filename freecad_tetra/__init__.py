@@ -20,6 +20,7 @@ from freecad_tetra.api import (
     write,
 )
 from freecad_tetra.errors import (
+    BadOption,
     Cancelled,
     Defect,
     InvalidPolygon,
@@ -31,9 +32,10 @@ from freecad_tetra.errors import (
     UnsupportedFormat,
     VerificationFailed,
 )
-from freecad_tetra.model import Cell, ConvexCells, Report, Solid, Tet10Mesh, TetMesh
+from freecad_tetra.model import Cell, ConvexCells, Labels, Report, Solid, Tet10Mesh, TetMesh
 
 __all__ = [
+    "BadOption",
     "Cancelled",
     "Cell",
     "ConvexCells",
@@ -41,6 +43,7 @@ __all__ = [
     "InvalidPolygon",
     "InvalidSolid",
     "KernelMissing",
+    "Labels",
     "MissingDependency",
     "Report",
     "Solid",

@@ -8,11 +8,12 @@ from __future__ import annotations
 
 import math
 from collections.abc import Mapping, Sequence
+from dataclasses import replace
 from os import PathLike, fspath
 from pathlib import Path
 from typing import Any
 
-from freecad_tetra import brep, directions, kernel
+from freecad_tetra import brep, directions, kernel, limits
 from freecad_tetra.errors import (
     BadOption,
     Cancelled,
@@ -46,8 +47,9 @@ def as_solid(
     Parameters
     ----------
     source : path, Solid, shape, trimesh or (vertices, triangles)
-        A shape is a cadquery or build123d object, an OCP ``TopoDS_Shape``, or inside FreeCAD
-        a ``Part.Shape``.
+        A shape is a cadquery or build123d object, a sequence of them, an OCP
+        ``TopoDS_Shape``, or inside FreeCAD a ``Part.Shape``; a trimesh is a ``Trimesh`` or a
+        ``Scene``. The names of parts, labels and tags go into ``labels``.
     linear_deflection : float, optional
         Chord height in mm; overrides `relative_deflection`.
     relative_deflection : float, optional
@@ -64,9 +66,9 @@ def as_solid(
     InvalidSolid, UnreadableFile, UnsupportedFormat, MissingDependency
     """
     wanted = _deflection(linear_deflection, relative_deflection, angular_deflection)
-    shape, title = _shape(source)
+    shape = shape_of(source)
     if shape is not None:
-        return brep.tessellate(shape, wanted, name=name or title, only=solid)
+        return shape.tessellate(wanted, only=solid, name=name or shape.name)
     return _mesh(source, name)
 
 
@@ -99,10 +101,10 @@ def validate(
     wanted = _deflection(linear_deflection, relative_deflection, angular_deflection)
     free = linear_deflection is relative_deflection is angular_deflection is None
     _stage(progress, "read")
-    shape, title = _shape(source)
+    shape = shape_of(source)
     if shape is None:
         return _choose(kernel.validate(_mesh(source, ""), None, progress), solid)
-    return _validate_shape(shape, wanted, free, title, solid, progress)
+    return _validate_shape(shape, wanted, free, solid, progress)
 
 
 def convex_cells(
@@ -112,6 +114,8 @@ def convex_cells(
     plain: bool = False,
     merge: bool = True,
     flatness: int | None = None,
+    max_cells: int | None = None,
+    max_vertices: int | None = None,
     progress: Progress | None = None,
     **reading: Any,
 ) -> ConvexCells:
@@ -127,6 +131,9 @@ def convex_cells(
         Merge neighbours whose union is convex.
     flatness : int, optional
         Grid steps within which facets of one plane count as coplanar.
+    max_cells, max_vertices : int, optional
+        Limits of a physics engine: cells are merged into hulls that cover the part and no
+        longer partition it, at an error that is reported; see `freecad_tetra.limits.limit`.
     progress : callable, optional
         ``progress(stage, fraction)``; returning False cancels.
     **reading
@@ -140,7 +147,11 @@ def convex_cells(
     options: dict[str, Any] = {"method": method, "plain": plain, "merge": merge}
     if flatness is not None:
         options["flatness"] = flatness
-    return kernel.convex_cells(validate(source, progress=progress, **reading), options, progress)
+    found = validate(source, progress=progress, **reading)
+    cells = kernel.convex_cells(found, options, progress)
+    if max_cells is None and max_vertices is None:
+        return cells
+    return limits.limit(cells, max_cells, max_vertices, progress)
 
 
 def tetrahedralize(
@@ -235,21 +246,16 @@ def fem_mesh(
     from freecad_tetra.fem.prepare import FemOptions, prepare
     from freecad_tetra.fem.remesh import Sizes
 
-    if shape is None and not isinstance(source, Validation):
-        shape = shape_of(source)
+    checked = isinstance(source, Validation)
+    named = shape_of(source if shape is None and not checked else shape)
     reading = {name: options.pop(name) for name in _READING if name in options}
-    known = isinstance(source, Validation) or shape is None
-    found = validate(source if known else shape, progress=progress, **reading)
+    known = checked or named is None
+    found = validate(source if known else named, progress=progress, **reading)
     mesh = tetrahedralize(found, progress=progress, **{"improve": True, **options})
     faces = _face_numbers(mesh, face_sizes or {})
     wanted = FemOptions(order, quality, Sizes(size, chord, turn, faces), refine)
-    project = None if shape is None else brep.projector(shape)
+    project = None if named is None else brep.projector(named.shape)
     return prepare(mesh, wanted, project, progress)
-
-
-def shape_of(source: Any) -> Any | None:
-    """Return the B-rep shape of a file or CAD object, None for meshes."""
-    return _shape(source)[0]
 
 
 _READING = ("linear_deflection", "relative_deflection", "angular_deflection", "solid")
@@ -340,25 +346,31 @@ def _stage(progress: Progress | None, stage: str) -> None:
         raise Cancelled()
 
 
-def _shape(source: Any) -> tuple[Any | None, str]:
-    """Return (shape, name) for B-rep inputs, (None, "") for all others."""
+def shape_of(source: Any) -> brep.Shape | None:
+    """Return the B-rep shape of a file or CAD object, None for meshes."""
+    if isinstance(source, brep.Shape):
+        return source
     if isinstance(source, str | PathLike):
         path = Path(fspath(source))
         if path.suffix.lower() in brep.SUFFIXES:
-            return brep.read_shape(path), path.stem
-        return None, path.stem
-    return brep.as_shape(source), ""
+            return brep.Shape(brep.read_shape(path), path.stem)
+        return None
+    return brep.as_named(source)
 
 
 def _mesh(source: Any, name: str) -> Solid:
-    """Return the Solid of a mesh file, a trimesh, a Solid or (vertices, triangles)."""
+    """Return the Solid of a mesh file, a trimesh or its scene, a Solid or (vertices, triangles)."""
     if isinstance(source, Solid):
         return source
     if isinstance(source, str | PathLike):
         from freecad_tetra import io
 
         return io.read_mesh(fspath(source), split=_split)
-    if hasattr(source, "vertices") and hasattr(source, "faces"):  # trimesh.Trimesh
+    if hasattr(source, "geometry") and hasattr(source, "graph"):  # trimesh.Scene
+        from freecad_tetra.adapters import trimesh
+
+        return _welded(trimesh.solid_of_scene(source), name)
+    if not callable(getattr(source, "vertices", len)) and hasattr(source, "faces"):  # Trimesh
         return _arrays(source.vertices, source.faces, name)
     if isinstance(source, Sequence) and len(source) == 2:
         return _arrays(source[0], source[1], name)
@@ -369,10 +381,14 @@ def _mesh(source: Any, name: str) -> Solid:
 
 
 def _arrays(vertices: Any, triangles: Any, name: str) -> Solid:
+    return _welded(Solid(vertices, triangles), name)
+
+
+def _welded(solid: Solid, name: str) -> Solid:
+    """Merge vertices with equal coordinates."""
     from freecad_tetra.io import weld
 
-    solid = Solid(vertices, triangles, name=name)
-    return Solid(solid.vertices, weld.merged(solid.vertices, solid.triangles), name=name)
+    return replace(solid, triangles=weld.merged(solid.vertices, solid.triangles), name=name)
 
 
 def _split(points: Any, loop: Any) -> IntArray:
@@ -381,10 +397,9 @@ def _split(points: Any, loop: Any) -> IntArray:
 
 
 def _validate_shape(
-    shape: Any,
+    shape: brep.Shape,
     wanted: brep.Deflection,
     free: bool,
-    name: str,
     only: int | None,
     progress: Progress | None,
 ) -> Validation:
@@ -392,7 +407,7 @@ def _validate_shape(
     reasons: list[str] = []
     while True:
         _stage(progress, "tessellate")
-        solid = brep.tessellate(shape, wanted, name=name, only=only)
+        solid = shape.tessellate(wanted, only=only)
         found = kernel.validate(_noted(solid, reasons), None, progress)
         reason = _why_finer(found, free)
         if not reason or len(reasons) == RETRIES:
@@ -403,10 +418,7 @@ def _validate_shape(
 
 def _noted(solid: Solid, reasons: Sequence[str]) -> Solid:
     notes = {**solid.notes, "retries": len(reasons), "retried_for": list(reasons)}
-    return Solid(
-        solid.vertices, solid.triangles, solid.face_ids, solid.face_names, solid.name,
-        solid.solid_ids, notes,
-    )  # fmt: skip
+    return replace(solid, notes=notes)
 
 
 def _why_finer(found: Validation, free: bool) -> str:
@@ -431,8 +443,10 @@ def _choose(found: Validation, number: int | None) -> Validation:
         )
     keep = found.triangle_source[found.solid_id == number - 1]
     solid = found.solid
-    part = Solid(
-        solid.vertices, solid.triangles[keep], solid.face_ids[keep], solid.face_names, solid.name,
-        None, solid.notes,
-    )  # fmt: skip
+    part = replace(
+        solid,
+        triangles=solid.triangles[keep],
+        face_ids=solid.face_ids[keep],
+        solid_ids=None if solid.solid_ids is None else solid.solid_ids[keep],
+    )
     return kernel.validate(part)

@@ -28,6 +28,7 @@ from freecad_tetra.errors import (
     KernelMissing,
     VerificationFailed,
 )
+from freecad_tetra.labels import Labels, distinct
 from freecad_tetra.model import (
     ConvexCells,
     FloatArray,
@@ -117,7 +118,20 @@ class Validation:
             self.solid.name,
             self.solid_id,
             self.solid.notes,
+            self.labels(),
         )
+
+    def labels(self) -> Labels:
+        """Return the caller's names, solids as `solid_id` counts them."""
+        given, ids = self.solid.labels, self.solid.solid_ids
+        if ids is None or not any(given.solids):
+            return Labels((), given.faces)
+        numbers, first = np.unique(self.solid_id, return_index=True)
+        names = [""] * (int(numbers.max(initial=-1)) + 1)
+        for number, triangle in zip(numbers.tolist(), self.triangle_source[first].tolist()):
+            source = int(ids[triangle])
+            names[number] = given.solids[source] if source < len(given.solids) else ""
+        return Labels(distinct(names), given.faces)
 
     def crosses_itself(self) -> bool:
         """Return whether a finer tessellation may help."""
@@ -212,6 +226,7 @@ def convex_cells(
         cell_solid=found["cell_solid"],
         point_source=found["point_source"],
         face_names=checked.solid.face_names,
+        labels=checked.labels(),
     )
     report = _report(found["report"], checked, perf_counter() - start)
     return replace(cells, report=_with_volume(report, checked, cells.volumes()))
@@ -253,9 +268,26 @@ def tetrahedralize(
         tet_solid=found["tet_solid"],
         point_source=found["point_source"],
         face_names=checked.solid.face_names,
+        labels=checked.labels(),
     )
     report = _report(found["report"], checked, perf_counter() - start)
     return replace(mesh, report=_with_volume(report, checked, mesh.volumes()))
+
+
+def limit_cells(
+    cells: ConvexCells, max_cells: int, max_vertices: int, progress: Progress | None = None
+) -> dict[str, Any]:
+    """Merge convex cells within limits (0: none), as the arrays of the kernel.
+
+    Raises
+    ------
+    BadOption, Cancelled, KernelMissing
+    """
+    solid = Solid(cells.points, np.zeros((0, 3), np.int32))
+    return _call(
+        "limit_cells", solid, None, cells.points, cells.facet_offsets, cells.facet_vertices,
+        cells.facet_source, cells.cell_offsets, cells.cell_solid, max_cells, max_vertices, progress,
+    )  # fmt: skip
 
 
 def triangulate_polygon(points: Any, loops: Sequence[Any]) -> IntArray:

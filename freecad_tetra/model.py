@@ -15,15 +15,17 @@ from typing import Any
 import numpy as np
 import numpy.typing as npt
 
+from freecad_tetra.conversions import CellConversions, TetConversions
 from freecad_tetra.errors import Defect, InvalidSolid
+from freecad_tetra.labels import Labels
 
 FloatArray = npt.NDArray[np.float64]
 IntArray = npt.NDArray[np.int32]
 LongArray = npt.NDArray[np.int64]
 
 __all__ = [
-    "Cell", "ConvexCells", "Defect", "Report", "Solid", "Tet10Mesh", "TetMesh", "frozen_array",
-    "rebuilt",
+    "Cell", "ConvexCells", "Defect", "Labels", "Report", "Solid", "Tet10Mesh", "TetMesh",
+    "frozen_array", "rebuilt",
 ]  # fmt: skip
 
 
@@ -89,6 +91,8 @@ class Solid:
         B-rep solid of each triangle; None when the surface itself has to tell.
     notes : mapping
         How the surface was made (deflections, retries, volume of the B-rep).
+    labels : Labels
+        Names that the caller gave to solids (as `solid_ids` count) and to groups of faces.
     """
 
     vertices: FloatArray
@@ -98,6 +102,7 @@ class Solid:
     name: str = ""
     solid_ids: IntArray | None = None
     notes: Mapping[str, Any] = field(default_factory=dict)
+    labels: Labels = field(default_factory=Labels)
 
     def __post_init__(self) -> None:
         _freeze(self, "vertices", np.float64, -1, 3)
@@ -241,7 +246,7 @@ class Cell:
 
 
 @dataclass(frozen=True, eq=False)
-class ConvexCells:
+class ConvexCells(CellConversions):
     """A partition of a solid into closed convex polyhedra.
 
     Attributes
@@ -261,6 +266,8 @@ class ConvexCells:
         Input vertex, or -1 for a point that was made.
     face_names : tuple of str
     report : Report
+    labels : Labels
+        Names that the caller gave to solids and to groups of faces.
     """
 
     points: FloatArray
@@ -273,6 +280,7 @@ class ConvexCells:
     point_source: IntArray
     face_names: tuple[str, ...] = ()
     report: Report = field(default_factory=Report)
+    labels: Labels = field(default_factory=Labels)
 
     def __post_init__(self) -> None:
         _freeze(self, "points", np.float64, -1, 3)
@@ -329,7 +337,7 @@ class ConvexCells:
 
 
 @dataclass(frozen=True, eq=False)
-class TetMesh:
+class TetMesh(TetConversions):
     """Face-to-face tetrahedra that fill a solid.
 
     Attributes
@@ -353,6 +361,8 @@ class TetMesh:
         Input vertex, or -1 for a Steiner point.
     face_names : tuple of str
     report : Report
+    labels : Labels
+        Names that the caller gave to solids and to groups of faces.
     """
 
     points: FloatArray
@@ -365,13 +375,14 @@ class TetMesh:
     face_names: tuple[str, ...] = ()
     report: Report = field(default_factory=Report)
     skin_twin: IntArray | None = None
+    labels: Labels = field(default_factory=Labels)
 
     def __post_init__(self) -> None:
-        if self.skin_twin is None:
-            object.__setattr__(self, "skin_twin", np.full(len(self.skin), -1))
         _freeze(self, "points", np.float64, -1, 3)
         _freeze(self, "tets", np.int32, -1, 4)
         _freeze(self, "skin", np.int32, -1, 3)
+        if self.skin_twin is None:
+            object.__setattr__(self, "skin_twin", _twins(self.skin))
         for name in ("skin_face", "skin_source", "skin_twin", "tet_solid", "point_source"):
             _freeze(self, name, np.int32, -1)
 
@@ -385,6 +396,17 @@ class TetMesh:
         return np.einsum("ij,ij->i", a, np.cross(b, c)) / 6.0
 
 
+def _twins(skin: IntArray) -> IntArray:
+    """Return for each triangle the row of the other one with the same corners, or -1, (s,)."""
+    _, name, count = np.unique(np.sort(skin, axis=1), axis=0, return_inverse=True,
+                               return_counts=True)  # fmt: skip
+    order = np.argsort(name.reshape(-1), kind="stable")
+    paired = order[count[name.reshape(-1)[order]] == 2].reshape(-1, 2)
+    twin = np.full(len(skin), -1, np.int32)
+    twin[paired[:, 0]], twin[paired[:, 1]] = paired[:, 1], paired[:, 0]
+    return twin
+
+
 def rebuilt(
     mesh: TetMesh, points: Any, tets: Any, tet_solid: Any, skin: Any, skin_face: Any,
     skin_source: Any, point_source: Any,
@@ -392,7 +414,7 @@ def rebuilt(
     """Return a mesh of the same solid with other elements; names and report are kept."""
     return TetMesh(
         points, tets, skin, skin_face, skin_source, tet_solid, point_source, mesh.face_names,
-        mesh.report,
+        mesh.report, labels=mesh.labels,
     )  # fmt: skip
 
 
@@ -408,7 +430,7 @@ class Tet10Mesh:
         Corners, then the middles of 01, 12, 20, 03, 13, 23.
     skin : (s, 6) int32
         Corners, counter-clockwise seen from outside, then the middles of 01, 12, 20.
-    skin_face, skin_source, tet_solid, face_names, report
+    skin_face, skin_source, tet_solid, face_names, report, labels
         As in `TetMesh`.
     point_source : (p,) int32
         Input vertex, or -1 for a Steiner point or a middle.
@@ -423,6 +445,7 @@ class Tet10Mesh:
     point_source: IntArray
     face_names: tuple[str, ...] = ()
     report: Report = field(default_factory=Report)
+    labels: Labels = field(default_factory=Labels)
 
     def __post_init__(self) -> None:
         _freeze(self, "points", np.float64, -1, 3)

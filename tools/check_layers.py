@@ -3,7 +3,8 @@
 """Check that layers include and import only what docs/decisions and DESIGN 6 allow them to.
 
 C++: exact <- solid <- polygon <- {notch | fence} <- assemble <- bindings.
-Python: errors <- model <- {kernel | brep | io | export | fem} <- {cli | workbench}.
+Python: errors <- model <- {kernel | brep | io | export | fem} <- adapters <- api <- {cli |
+workbench}.
 FreeCAD and OCP are never imported in one module, as one process cannot hold both.
 
 Usage: ``check_layers.py ROOT``; prints one line per breach, exit status 1 when there is one.
@@ -30,20 +31,26 @@ PYTHON_RANK = {
     "_version": 0,
     "kernel_file": 1,
     "errors": 0,
+    "labels": 0,
+    "conversions": 0,
     "model": 1,
-    "kernel": 2,
-    "brep": 2,
-    "io": 2,
-    "export": 2,
-    "verify": 2,
-    "directions": 2,
-    "fem": 2,
-    "check": 2,
-    "api": 3,
-    "__init__": 4,
-    "cli": 5,
-    "__main__": 6,
-    "workbench": 5,
+    "mass": 2,
+    "kernel": 3,
+    "brep": 3,
+    "io": 3,
+    "export": 3,
+    "verify": 3,
+    "directions": 3,
+    "fem": 3,
+    "check": 3,
+    "limits": 4,
+    "adapters": 4,
+    "api": 5,
+    "__init__": 6,
+    "cli": 7,
+    "cq": 7,
+    "__main__": 8,
+    "workbench": 7,
 }
 # Modules of equal rank see nothing of each other, save for these, which serve all of their rank.
 PYTHON_SHARED = {"_version", "errors"}

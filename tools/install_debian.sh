@@ -9,6 +9,8 @@ packages=(
     build-essential cmake ninja-build git util-linux ca-certificates
     python3 python3-dev python3-venv
     libgtest-dev clang-format
+    # Tests look at the HTML view in the one, and run a macro in the other.
+    chromium chromium-driver freecad
     # Shared libraries that cadquery-ocp and gmsh load at run time.
     libgl1 libglu1-mesa libxrender1 libxcursor1 libxft2 libxinerama1 libxfixes3 libxext6 libsm6
     libice6 libfontconfig1 libgomp1

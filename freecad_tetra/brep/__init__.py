@@ -8,11 +8,12 @@ FreeCAD this package refuses to load OCP, and takes FreeCAD's shapes instead.
 from __future__ import annotations
 
 import sys
-from dataclasses import dataclass
+from dataclasses import dataclass, field, replace
 from os import PathLike
 from typing import Any
 
 from freecad_tetra.errors import MissingDependency, TetraError
+from freecad_tetra.labels import Labels
 from freecad_tetra.model import Solid
 
 SUFFIXES = (".step", ".stp", ".brep", ".brp", ".iges", ".igs", ".fcstd")
@@ -40,6 +41,20 @@ class Deflection:
         """Return the deflection with its lengths and its angle scaled."""
         chord = None if self.linear is None else self.linear * linear
         return Deflection(chord, self.relative * linear, self.angular * angular)
+
+
+@dataclass(frozen=True)
+class Shape:
+    """A shape, as `as_shape` returns it, with a name, and the names of its solids and faces."""
+
+    shape: Any
+    name: str = ""
+    labels: Labels = field(default_factory=Labels)
+
+    def tessellate(self, deflection: Deflection, only: int | None, name: str = "") -> Solid:
+        """Tessellate it; see `freecad_tetra.brep.tessellate`."""
+        solid = tessellate(self.shape, deflection, name=name or self.name, only=only)
+        return replace(solid, labels=self.labels)
 
 
 def _require_ocp() -> None:
@@ -96,6 +111,26 @@ def as_shape(value: Any) -> Any | None:
     if hasattr(value, "part") and value is not None:  # build123d BuildPart
         return as_shape(value.part)
     return None
+
+
+def as_named(value: Any) -> Shape | None:
+    """Return the shape of a CAD object with its names, or None when it is none.
+
+    Takes OCP shapes; cadquery Workplanes (tags name faces and solids), Shapes and Assemblies
+    (placed; parts and subshapes keep their names); build123d objects and builders (labels);
+    sequences of shapes; and FreeCAD's Part.Shape.
+    """
+    if hasattr(value, "tessellated") or hasattr(value, "exportBrepToString"):
+        return Shape(as_shape(value))
+    values = value if isinstance(value, list | tuple) and len(value) else [value]
+    marks = ("wrapped", "vals", "toCompound", "part", "TShape")
+    if not all(any(hasattr(one, mark) for mark in marks) for one in values):
+        return None
+    _require_ocp()
+    from freecad_tetra.brep import named
+
+    found = named.named_shape(value)
+    return None if found is None else Shape(found.shape, "", found.labels())
 
 
 def tessellate(

@@ -8,6 +8,7 @@ import math
 from collections.abc import Sequence
 
 from freecad_tetra._version import __version__
+from freecad_tetra.cli import robot, shown
 
 PROGRAM = "freecad-tetra"
 _INPUTS = ".step .stp .brep .iges .fcstd .stl .obj .off .ply"
@@ -43,6 +44,8 @@ def parser() -> argparse.ArgumentParser:
     check = commands.add_parser("check", help="verify a result file against its solid")
     _common(check)
     check.add_argument("result", metavar="OUT", help="cells (.obj .vtu) or tetrahedra (.vtu)")
+    robot.add(commands)
+    shown.add(commands)
     return top
 
 
@@ -110,6 +113,7 @@ def _cells(command: argparse.ArgumentParser) -> None:
         metavar="STEPS",
         help="grid steps within which facets of a plane are coplanar",
     )
+    robot.add_limits(command)
 
 
 def _output(command: argparse.ArgumentParser, suffixes: str) -> None:

@@ -12,6 +12,7 @@ from pathlib import Path
 from typing import Any
 
 from freecad_tetra import api, export
+from freecad_tetra.cli import robot, shown
 from freecad_tetra.cli.meter import Meter
 from freecad_tetra.errors import (
     Cancelled,
@@ -47,7 +48,10 @@ def run(
         import into an ImportError, so that no error counts once this is true.
     """
     meter = Meter(told)
-    commands = {"tets": _tets, "cells": _cells, "info": _info, "check": _check, "quality": _quality}
+    commands = {
+        "tets": _tets, "cells": _cells, "info": _info, "check": _check, "quality": _quality,
+        "robot": robot.write, "picture": shown.draw, "view": shown.write_page,
+    }  # fmt: skip
     try:
         _require_writable(arguments)
         code = commands[arguments.command](arguments, meter)
@@ -137,6 +141,8 @@ def _cells(arguments: argparse.Namespace, meter: Meter) -> int:
         plain=arguments.plain,
         merge=not arguments.no_merge,
         flatness=arguments.flatness,
+        max_cells=arguments.max_cells,
+        max_vertices=arguments.max_vertices,
         progress=meter,
     )
     _write_all(arguments, meter, cells, found, cells.report)
@@ -181,6 +187,8 @@ def _summary(report: Report) -> str:
     parts = [f"{report.counts[k]} {k}" for k in ("facets", "notches") if k in report.counts]
     if report.method:
         parts.append(report.method)
+    if "limits" in report.details:
+        parts.append(f"hull error {report.details['limits']['hull_error']:.4g}")
     retries = report.details.get("surface", {}).get("retries", 0)
     if retries:
         parts.append(f"tessellated {retries} times finer")

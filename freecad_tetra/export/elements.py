@@ -3,12 +3,13 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from typing import Any
 
 import numpy as np
 import numpy.typing as npt
 
+from freecad_tetra.labels import distinct
 from freecad_tetra.model import FloatArray, Tet10Mesh, TetMesh
 
 LongArray = npt.NDArray[np.int64]
@@ -34,6 +35,8 @@ class Elements:
         Input vertex of each node, -1 for Steiner points and middles.
     face_names, solid_names : dict of int to str
         Names of the groups that occur, without blanks.
+    face_groups : dict of str to list of int
+        Further groups of faces, which may overlap.
     """
 
     points: FloatArray
@@ -44,6 +47,7 @@ class Elements:
     source: LongArray
     face_names: dict[int, str]
     solid_names: dict[int, str]
+    face_groups: dict[str, list[int]] = field(default_factory=dict)
 
     @property
     def order(self) -> int:
@@ -62,8 +66,19 @@ def elements(mesh: TetMesh | Tet10Mesh, order: int = 1) -> Elements:
     face = mesh.skin_face.astype(np.int64) if mesh.face_names else np.zeros(len(skin), np.int64)
     names = {int(i): mesh.face_names[i] if mesh.face_names else "Skin" for i in np.unique(face)}
     solid = mesh.tet_solid.astype(np.int64)
-    solids = {int(i): f"Solid{i + 1}" for i in np.unique(solid)}
-    return Elements(points, tets, skin, solid, face, source, names, solids)
+    solids = {int(i): mesh.labels.solid(int(i)) for i in np.unique(solid)}
+    groups = _face_groups(mesh, names, solids)
+    return Elements(points, tets, skin, solid, face, source, names, solids, groups)
+
+
+def _face_groups(
+    mesh: TetMesh | Tet10Mesh, faces: dict[int, str], solids: dict[int, str]
+) -> dict[str, list[int]]:
+    """Return the caller's groups of faces that occur, under names that nothing else has."""
+    taken = [*faces.values(), *solids.values()]
+    names = distinct([*taken, *mesh.labels.faces])[len(taken) :]
+    groups = [[i for i in ids if i in faces] for ids in mesh.labels.faces.values()]
+    return {name: ids for name, ids in zip(names, groups) if ids and mesh.face_names}
 
 
 def _second_order(points: FloatArray, tets: LongArray, skin: LongArray) -> tuple[Any, Any, Any]:

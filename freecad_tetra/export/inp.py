@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""Abaqus and CalculiX input: elements, and a node set and a surface per B-rep face."""
+"""Abaqus and CalculiX input: elements, a node set and a surface per B-rep face and named group."""
 
 from __future__ import annotations
 
@@ -33,8 +33,9 @@ def write_tets(grid: Elements, stream: BinaryIO) -> None:
         stream.write(lines(", ".join(["%d"] * table.shape[1]), table))
     _element_sets(grid, stream)
     element, side = sides_of_skin(grid, _SIDES)
-    for i, name in grid.face_names.items():
-        rows_of_face = np.flatnonzero(grid.face == i)
+    groups = {name: [i] for i, name in grid.face_names.items()} | grid.face_groups
+    for name, faces in groups.items():
+        rows_of_face = np.flatnonzero(np.isin(grid.face, faces))
         stream.write(f"*NSET, NSET={name}\n".encode())
         _ids(stream, np.unique(grid.skin[rows_of_face]) + 1)
         stream.write(f"*SURFACE, NAME={name}_surface, TYPE=ELEMENT\n".encode())

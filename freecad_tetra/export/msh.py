@@ -1,5 +1,8 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""Gmsh MSH in ascii, versions 4.1 and 2.2, with a physical group per B-rep face and solid."""
+"""Gmsh MSH in ascii, versions 4.1 and 2.2, with a physical group per B-rep face and solid.
+
+Version 4.1 has the caller's groups of faces too; in 2.2 an element belongs to one group only.
+"""
 
 from __future__ import annotations
 
@@ -18,7 +21,7 @@ _TET10 = [0, 1, 2, 3, 4, 5, 6, 7, 9, 8]  # gmsh swaps the last two middles
 def write_tets(grid: Elements, stream: BinaryIO) -> None:
     """Write MSH 4.1; nodes and elements are numbered from 1, groups from 1 per dimension."""
     stream.write(b"$MeshFormat\n4.1 0 8\n$EndMeshFormat\n")
-    _physical_names(grid, stream)
+    _physical_names(grid, stream, _group_tags(grid))
     _entities(grid, stream)
     count = len(grid.points)
     first = next(iter(grid.solid_names)) + 1
@@ -41,7 +44,7 @@ def write_tets(grid: Elements, stream: BinaryIO) -> None:
 def write_tets_22(grid: Elements, stream: BinaryIO) -> None:
     """Write MSH 2.2, which older programs read."""
     stream.write(b"$MeshFormat\n2.2 0 8\n$EndMeshFormat\n")
-    _physical_names(grid, stream)
+    _physical_names(grid, stream, {})
     count = len(grid.points)
     stream.write(f"$Nodes\n{count}\n".encode())
     for start in range(0, count, 4096):
@@ -63,8 +66,15 @@ def write_tets_22(grid: Elements, stream: BinaryIO) -> None:
     stream.write(b"$EndElements\n")
 
 
-def _physical_names(grid: Elements, stream: BinaryIO) -> None:
+def _group_tags(grid: Elements) -> dict[str, int]:
+    """Return the physical tag of each of the caller's groups, behind those of all faces."""
+    first = max(grid.face_names, default=0) + 2
+    return {name: first + i for i, name in enumerate(grid.face_groups)}
+
+
+def _physical_names(grid: Elements, stream: BinaryIO, groups: dict[str, int]) -> None:
     rows = [f'2 {i + 1} "{name}"\n' for i, name in grid.face_names.items()]
+    rows += [f'2 {tag} "{name}"\n' for name, tag in groups.items()]
     rows += [f'3 {i + 1} "{name}"\n' for i, name in grid.solid_names.items()]
     text = f"$PhysicalNames\n{len(rows)}\n{''.join(rows)}$EndPhysicalNames\n"
     stream.write(text.encode())
@@ -73,9 +83,11 @@ def _physical_names(grid: Elements, stream: BinaryIO) -> None:
 def _entities(grid: Elements, stream: BinaryIO) -> None:
     counts = f"0 0 {len(grid.face_names)} {len(grid.solid_names)}"
     rows = [f"$Entities\n{counts}\n"]
+    tags = _group_tags(grid)
     for i in grid.face_names:
         box = _box(grid.points[grid.skin[grid.face == i]])
-        rows.append(f"{i + 1} {box} 1 {i + 1} 0\n")
+        groups = [i + 1, *(tags[name] for name, ids in grid.face_groups.items() if i in ids)]
+        rows.append(f"{i + 1} {box} {len(groups)} {' '.join(map(str, groups))} 0\n")
     for i in grid.solid_names:
         box = _box(grid.points[grid.tets[grid.solid == i]])
         rows.append(f"{i + 1} {box} 1 {i + 1} 0\n")

@@ -17,17 +17,19 @@ from pathlib import Path
 import numpy as np
 import numpy.typing as npt
 
+from freecad_tetra.export.scene import Scene, middles
 from freecad_tetra.model import ConvexCells
 
 Floats = npt.NDArray[np.float64]
 Image = npt.NDArray[np.uint8]
 Facets = list[Floats]
 
-__all__ = ["Camera", "cell_polygons", "draw_cells", "read_cells", "write_png"]
+__all__ = ["Camera", "cell_polygons", "draw_cells", "draw_scene", "read_cells", "write_png"]
 
 SUPERSAMPLING = 2
 BACKGROUND = np.array([[1.0, 1.0, 1.0], [0.86, 0.89, 0.93]])
 KEY_LIGHT = np.array([0.35, 0.45, 1.0])
+INNER = np.array([0.84, 0.85, 0.87])
 FILL_LIGHT = np.array([-0.9, -0.2, 0.4])
 
 
@@ -103,18 +105,62 @@ def draw_cells(
     (height, width, 3) uint8
         The same bytes for the same cells, O(pixels covered).
     """
-    camera = camera or Camera()
-    moved = [facet @ camera.axes().T for facets in apart(cells, explode) for facet in facets]
     owner = np.repeat(np.arange(len(cells)), [len(facets) for facets in cells])
+    facets = [facet for facets in apart(cells, explode) for facet in facets]
+    return _draw(facets, owner, palette(len(cells))[owner], camera or Camera())
+
+
+def draw_scene(
+    scene: Scene, explode: float = 0.0, camera: Camera | None = None, colour: str = "piece"
+) -> Image:
+    """Draw the pieces of a scene; see `draw_cells`.
+
+    Parameters
+    ----------
+    scene : Scene
+    explode : float
+    camera : Camera, optional
+    colour : {"piece", "face", "quality"}
+        A hue per piece; or per B-rep face, grey inside; or from red, bad, to green.
+
+    Returns
+    -------
+    (height, width, 3) uint8
+    """
+    kept = np.arange(len(scene.piece)) if explode else outer_facets(scene)
+    middle = middles(scene)
+    shifts = explode * (middle - box_middle(scene.points[scene.corners]))
+    owner = scene.piece[kept].astype(np.int64)
+    facets = [scene.loop(f) + shifts[k] for f, k in zip(kept.tolist(), owner.tolist())]
+    colours = {
+        "piece": lambda: palette(len(middle))[owner],
+        "face": lambda: face_colours(scene.face[kept]),
+        "quality": lambda: quality_colours(scene.quality)[owner],
+    }[colour]()
+    return _draw(facets, owner, colours, camera or Camera())
+
+
+def _draw(facets: Facets, owner: npt.NDArray[np.int64], colours: Floats, camera: Camera) -> Image:
+    """Draw facets of pieces, each in its colour."""
+    moved = [facet @ camera.axes().T for facet in facets]
     front, normals = facing(moved)
-    scene = [moved[i] for i in front]
-    depth, shown = rasterize(scene, camera)
-    colours = palette(len(cells))[owner[front]] * lighting(normals)[:, None]
+    depth, shown = rasterize([moved[i] for i in front], camera)
+    shaded = colours[front] * lighting(normals)[:, None]
     pixels = background(*depth.shape)
     hit = shown >= 0
-    pixels[hit] = colours[shown[hit]] * creases(depth)[hit, None]
+    pixels[hit] = shaded[shown[hit]] * creases(depth)[hit, None]
     pixels *= outlines(shown, depth, owner[front], normals)[:, :, None]
     return shrink(np.clip(pixels, 0.0, 1.0))
+
+
+def outer_facets(scene: Scene) -> npt.NDArray[np.int64]:
+    """Return the facets that no other is the back of; triangles only are compared, O(F log F)."""
+    sizes = np.diff(scene.offsets)
+    triangles = np.flatnonzero(sizes == 3)
+    keys = np.sort(scene.corners[scene.offsets[triangles][:, None] + np.arange(3)], axis=1)
+    _, index, count = np.unique(keys, axis=0, return_inverse=True, return_counts=True)
+    inner = triangles[count[index.reshape(-1)] > 1]
+    return np.setdiff1d(np.arange(len(sizes)), inner)
 
 
 def apart(cells: Sequence[Facets], explode: float) -> list[Facets]:
@@ -186,7 +232,12 @@ def palette(count: int) -> Floats:
     hue = 0.9 + np.arange(count) * np.pi * (3.0 - np.sqrt(5.0))
     lightness = np.where(np.arange(count) % 2 == 0, 0.80, 0.72)
     a, b = 0.105 * np.cos(hue), 0.105 * np.sin(hue)
-    # Ottosson's Oklab to linear sRGB.
+    return oklab(lightness, a, b)
+
+
+def oklab(lightness: Floats, a: Floats, b: Floats) -> Floats:
+    """Return sRGB of Ottosson's Oklab, (n, 3) float64."""
+    # Linear sRGB by way of the cones' responses.
     cones = np.stack(
         [
             lightness + 0.3963377774 * a + 0.2158037573 * b,
@@ -204,6 +255,19 @@ def palette(count: int) -> Floats:
     linear = np.clip(mix @ cones**3, 0.0, 1.0).T
     colours: Floats = linear ** (1.0 / 2.2)
     return colours
+
+
+def face_colours(face: npt.NDArray[np.int32]) -> Floats:
+    """Return a hue per B-rep face and grey for -1, (n, 3) float64."""
+    hues = palette(int(face.max(initial=0)) + 1)
+    colours: Floats = np.where((face < 0)[:, None], INNER, hues[np.maximum(face, 0)])
+    return colours
+
+
+def quality_colours(quality: Floats) -> Floats:
+    """Return colours from red, 0, to green, 1, (n, 3) float64."""
+    q = np.clip(quality, 0.0, 1.0)
+    return oklab(0.5 + 0.4 * q, 0.16 - 0.28 * q, 0.02 + 0.1 * q)
 
 
 def lighting(normals: Floats) -> Floats:
@@ -277,6 +341,11 @@ def shrink(pixels: Floats) -> Image:
 
 def write_png(path: Path, image: Image) -> None:
     """Write (height, width, 3) uint8 as an 8-bit RGB PNG."""
+    path.write_bytes(png(image))
+
+
+def png(image: Image) -> bytes:
+    """Return (height, width, 3) uint8 as an 8-bit RGB PNG."""
     height, width = image.shape[:2]
     rows = np.concatenate([np.zeros((height, 1), np.uint8), image.reshape(height, -1)], axis=1)
 
@@ -285,7 +354,7 @@ def write_png(path: Path, image: Image) -> None:
         return struct.pack(">I", len(body)) + kind + body + check
 
     header = struct.pack(">IIBBBBB", width, height, 8, 2, 0, 0, 0)
-    path.write_bytes(
+    return (
         b"\x89PNG\r\n\x1a\n"
         + chunk(b"IHDR", header)
         + chunk(b"IDAT", zlib.compress(rows.tobytes(), 9))

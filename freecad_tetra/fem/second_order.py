@@ -68,6 +68,7 @@ def second_order(mesh: TetMesh, project: Project | None = None) -> tuple[Tet10Me
     made = Tet10Mesh(
         np.concatenate([mesh.points, middles]), tets.astype(np.int32), triangles.astype(np.int32),
         mesh.skin_face, mesh.skin_source, mesh.tet_solid, source, mesh.face_names, mesh.report,
+        mesh.labels,
     )  # fmt: skip
     return made, curving
 

@@ -40,12 +40,17 @@ class StoredTets:
     ----------
     points : (p, 3) float64
     tets : (t, 4) int64
+    skin : (s, 3) int64
+    skin_face : (s,) int64
+        B-rep faces, -1 where the file tells none.
     middles : (t, 6) int64 or None
         Nodes amid the edges 01, 12, 20, 03, 13, 23, of second order.
     """
 
     points: FloatArray
     tets: LongArray
+    skin: LongArray
+    skin_face: LongArray
     middles: LongArray | None = None
 
 
@@ -87,7 +92,9 @@ def read_tets(path: str | PathLike[str]) -> StoredTets:
     from freecad_tetra.io import any_mesh
 
     points, tets = any_mesh.read_tets(file)
-    stored = StoredTets(points, tets[:, :4], tets[:, 4:] if tets.shape[1] == 10 else None)
+    middles = tets[:, 4:] if tets.shape[1] == 10 else None
+    no_skin = np.zeros((0, 3), np.int64)
+    stored = StoredTets(points, tets[:, :4], no_skin, np.zeros(0, np.int64), middles)
     try:
         _require_sane(stored)
     except BadFile as error:
@@ -136,11 +143,15 @@ def _vtu(data: bytes) -> StoredCells | StoredTets:
     points = arrays["Points"].reshape(-1, 3).astype(np.float64)
     types = arrays["types"]
     if np.isin(types, (*_TETS, *_SKIN)).all():
-        starts = np.append(0, arrays["offsets"])[:-1][np.isin(types, _TETS)]
-        second = bool((types[np.isin(types, _TETS)] == _TETS[1]).all())
-        nodes = starts.astype(np.int64)[:, None] + np.arange(10 if second else 4)
-        rows = arrays["connectivity"][nodes].astype(np.int64)
-        return StoredTets(points, rows[:, :4], rows[:, 4:] if second else None)
+        starts = np.append(0, arrays["offsets"])[:-1].astype(np.int64)
+        solid = np.isin(types, _TETS)
+        second = bool((types[solid] == _TETS[1]).all())
+        tets, skin = (
+            arrays["connectivity"][starts[rows][:, None] + np.arange(count)].astype(np.int64)
+            for rows, count in ((solid, 10 if second else 4), (~solid, 3))
+        )
+        face = arrays.get("face", np.full(len(types), -1))[~solid].astype(np.int64)
+        return StoredTets(points, tets[:, :4], skin, face, tets[:, 4:] if second else None)
     if not (types == _POLYHEDRON).all():
         raise BadFile("it holds cells that are neither tetrahedra nor polyhedra")
     return StoredCells(points, tuple(_polyhedra(arrays["faces"].astype(np.int64), len(types))))

@@ -9,7 +9,7 @@ from __future__ import annotations
 import dataclasses
 import hashlib
 import json
-from collections.abc import Callable, Mapping
+from collections.abc import Mapping
 from typing import Any
 
 import FreeCAD
@@ -108,11 +108,11 @@ def options_of(obj: Any, names: tuple[str, ...]) -> FemOptions:
     ------
     BadOption
     """
-    sizes = face_sizes(obj.FaceSizes)
-    lost = [name for name in sizes if name not in names]
+    asked = face_sizes(obj.FaceSizes)
+    lost = [name for name in asked if name not in names]
     if lost:
         raise BadOption(f"there is no face {lost[0]}", f"choose Face1 to Face{len(names)}")
-    by_number = {names.index(name): size for name, size in sizes.items()}
+    by_number = {names.index(name): size for name, size in asked.items()}
     size = compat.millimetres(obj.ElementSize) or None
     turn = float(obj.ElementsPerTurn)
     sizes = Sizes(size, None, turn, by_number)
@@ -143,7 +143,10 @@ def _fill(obj: Any, mesh: TetMesh, shape: Any) -> None:
     """Prepare the mesh for analysis and hand it to FreeCAD; warnings go to the report view."""
     project = None if shape is None else brep.projector(brep.as_shape(shape))
     options = options_of(obj, mesh.face_names)
-    work: Callable[[Any], TetMesh | Tet10Mesh] = lambda told: prepare(mesh, options, project, told)
+
+    def work(told: Any) -> TetMesh | Tet10Mesh:
+        return prepare(mesh, options, project, told)
+
     made = progress.watched(work, obj.Label)
     obj.FemMesh = fem_mesh.fem_mesh(made)
     store.figures(obj, made)

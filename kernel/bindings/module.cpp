@@ -8,6 +8,7 @@ namespace nb = nanobind;
 namespace tetra::python {
 void bind_cells(nb::module_& m);
 void bind_errors(nb::module_& m);
+void bind_limit(nb::module_& m);
 void bind_polygon(nb::module_& m);
 void bind_tets(nb::module_& m);
 void bind_validate(nb::module_& m);
@@ -20,6 +21,7 @@ NB_MODULE(_tetra_kernel, m) {
         "Version of the compiled kernel; equals freecad_tetra.__version__.");
     tetra::python::bind_cells(m);
     tetra::python::bind_errors(m);
+    tetra::python::bind_limit(m);
     tetra::python::bind_polygon(m);
     tetra::python::bind_tets(m);
     tetra::python::bind_validate(m);

@@ -27,8 +27,7 @@ TEST(InsertPoint, AnyTetrahedronCanBeReplaced) {
         for (int t = 0; t < static_cast<int>(r.mesh.tets.size()); t += 7) {
             TetComplex complex(r.mesh, r.solid.grid, facet_classes(r.solid, {}));
             const Tet gone = complex.tet(t);
-            const Insertion done =
-                insert_point(complex, {t}, rng, [](const Tet&) { return true; });
+            const Insertion done = insert_point(complex, {t}, rng, [](const Tet&) { return true; });
             ASSERT_GE(done.point, 0);
             EXPECT_TRUE(done.vanished.empty());
             ExactMesh mesh = r.mesh;

@@ -6,8 +6,10 @@ from __future__ import annotations
 from pathlib import Path
 
 import pytest
-from check_solids import Unfit, check_cells, check_tets_at_once
+from check_solids import Unfit, check_cells, check_tets, check_tets_at_once
 from random_solids import read_off
+
+from freecad_tetra.kernel import load
 
 CASES = sorted((Path(__file__).resolve().parents[1] / "cases").glob("*.off"))
 # Contacts beyond types 1 to 3 may be refused, but never done wrong: two edges that cross in their

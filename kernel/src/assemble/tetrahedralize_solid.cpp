@@ -239,8 +239,8 @@ class SolidWorker {
             std::erase_if(d.triangles,
                           [&](int t) { return pulled.owners[index(t)] >= pulled.first_cup; });
             for (int& t : d.triangles)
-                t = input_.grid.triangle_source[index(
-                    owner_triangle_[index(pulled.owners[index(t)])])];
+                t = input_.grid
+                        .triangle_source[index(owner_triangle_[index(pulled.owners[index(t)])])];
         }
         return defects;
     }

@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Convex cells are merged into fewer hulls, those first whose common hull strays least.
+#pragma once
+
+#include <vector>
+
+#include "part_distance.h"
+#include "tetra/progress.h"
+
+namespace tetra {
+
+// The hull of some cells.
+struct MergedHull {
+    std::vector<int> cells;           // increasing
+    std::vector<int> points;          // ids of the hull's vertices, increasing
+    std::vector<Triangle> triangles;  // of the same ids; flat cells have none
+    double volume6 = 0;               // six times the hull's volume
+    double stray = 0;                 // how far its surface was seen to be from the part
+};
+
+// Merges the cells of a part, given as the increasing ids of their points, until at most `most`
+// are left. Greedy, by a heap over pairs: the two hulls of one solid whose common hull strays
+// least from the part, and among equals those that grow least. How far a hull strays is sampled on
+// the facets that bridge from one to the other. Pairs share a point, or, when none of those is
+// left, are any two of a solid. O(p log p) for p pairs, with a hull and some distances for each.
+// There must be no more solids than `most`.
+std::vector<MergedHull> merge_hulls(const CellArrays& part,
+                                    const std::vector<std::vector<int>>& cells,
+                                    const PartDistance& distance, int most, Progress& progress);
+
+}  // namespace tetra
