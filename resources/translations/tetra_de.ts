@@ -63,6 +63,34 @@
         <source>1 for straight tetrahedra, 2 for middle nodes too</source>
         <translation>1 für gerade Tetraeder, 2 auch für Mittelknoten</translation>
     </message>
+    <message>
+        <source>Rebuild the elements by the program mmg3d</source>
+        <translation>Die Elemente mit dem Programm mmg3d neu aufbauen</translation>
+    </message>
+    <message>
+        <source>Longest edge of elements; 0 chooses by size</source>
+        <translation>Längste Kante der Elemente; 0 wählt nach der Größe</translation>
+    </message>
+    <message>
+        <source>Elements around a round face, with Quality; 0 is automatic</source>
+        <translation>Elemente rund um eine runde Fläche, mit Qualität; 0 ist automatisch</translation>
+    </message>
+    <message>
+        <source>Longest edges on faces, with Quality: Face3=0.5</source>
+        <translation>Längste Kanten auf Flächen, mit Qualität: Face3=0.5</translation>
+    </message>
+    <message>
+        <source>How often every element is divided into eight</source>
+        <translation>Wie oft jedes Element in acht geteilt wird</translation>
+    </message>
+    <message>
+        <source>What to do when a load does not arrive on the mesh</source>
+        <translation>Was zu tun ist, wenn eine Last nicht im Netz ankommt</translation>
+    </message>
+    <message>
+        <source>Those of the analysis that the mesh has groups for</source>
+        <translation>Jene der Analyse, für die das Netz Gruppen hat</translation>
+    </message>
 </context>
 <context>
     <name>Tetra</name>

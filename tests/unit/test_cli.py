@@ -328,7 +328,7 @@ def test_a_crash_becomes_an_exit_code(
 ) -> None:  # fmt: skip
     out = tmp_path / "out.obj"
 
-    def crash(given: object, told: object) -> int:
+    def crash(given: object, told: object, interrupted: object) -> int:
         faulthandler.disable()
         told(stage)  # type: ignore[operator]
         export.temporary_name(out, os.getpid()).write_text("half")
