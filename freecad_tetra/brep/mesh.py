@@ -34,8 +34,8 @@ def tessellate(shape: Any, deflection: Deflection, name: str, only: int | None) 
     # The copy keeps sub-shapes and their order, and spares the caller's shape the mesh.
     shape = BRepBuilderAPI_Copy(shape, False, False).Shape()
     solids = _solids(shape, only)
-    linear = deflection.linear or deflection.relative * _diagonal(shape)
-    mesh = BRepMesh_IncrementalMesh(shape, linear, False, deflection.angular, False)
+    linear = deflection.chord(_diagonal(shape))
+    mesh = BRepMesh_IncrementalMesh(shape, linear, False, deflection.angle(), False)
     faces = _Faces(shape)
     rows, face_ids, solid_ids = [], [], []
     for number, solid in solids:
