@@ -16,6 +16,8 @@ from freecad_tetra.errors import MissingDependency, TetraError
 from freecad_tetra.labels import Labels
 from freecad_tetra.model import Solid
 
+SMALLEST = 1e-7  # mm, OpenCascade's precision
+SMALLEST_ANGLE = 1e-12  # radians
 SUFFIXES = (".step", ".stp", ".brep", ".brp", ".iges", ".igs", ".fcstd")
 
 
@@ -36,6 +38,17 @@ class Deflection:
     linear: float | None = None
     relative: float = 0.001
     angular: float = 0.3490658503988659  # 20 degrees
+
+    def chord(self, diagonal: float) -> float:
+        """Return the chord height for a shape of that size, never below OpenCascade's least.
+
+        Its mesher throws for less, which inside FreeCAD ends FreeCAD.
+        """
+        return max(self.linear or self.relative * diagonal, 2 * SMALLEST)
+
+    def angle(self) -> float:
+        """Return the angle in radians, never below OpenCascade's least."""
+        return max(self.angular, 2 * SMALLEST_ANGLE)
 
     def finer(self, linear: float, angular: float) -> Deflection:
         """Return the deflection with its lengths and its angle scaled."""

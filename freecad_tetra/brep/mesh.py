@@ -35,12 +35,12 @@ def tessellate(shape: Any, deflection: Deflection, name: str, only: int | None) 
     # The copy keeps sub-shapes and their order, and spares the caller's shape the mesh.
     shape = BRepBuilderAPI_Copy(shape, False, False).Shape()
     solids = _solids(shape, only)
-    linear = deflection.linear or deflection.relative * _diagonal(shape)
+    linear = deflection.chord(_diagonal(shape))
     numbers = TopTools_IndexedMapOfShape()
     TopExp.MapShapes_s(shape, FACE, numbers)
     shared = share_contacts([s for _, s in solids], numbers)
     meshed = shape if shared is None else shared.shape
-    mesh = BRepMesh_IncrementalMesh(meshed, linear, False, deflection.angular, False)
+    mesh = BRepMesh_IncrementalMesh(meshed, linear, False, deflection.angle(), False)
     faces = _Faces(meshed)
     rows, face_ids, solid_ids = [], [], []
     bare: list[int] = []

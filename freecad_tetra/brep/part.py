@@ -49,9 +49,9 @@ def tessellate(shape: Any, deflection: Deflection, name: str, only: int | None) 
 
     _require_solid(shape, only)
     shape = shape.copy(True, False)  # spares the caller's shape the mesh
-    linear = deflection.linear or deflection.relative * _diagonal(shape)
+    linear = deflection.chord(_diagonal(shape))
     MeshPart.meshFromShape(
-        Shape=shape, LinearDeflection=linear, AngularDeflection=deflection.angular, Relative=False
+        Shape=shape, LinearDeflection=linear, AngularDeflection=deflection.angle(), Relative=False
     )
     # A coarser mesh than the one at hand is never made anew.
     given = [_Given(face, _COARSER * linear) for face in shape.Faces]

@@ -34,11 +34,11 @@ _SIZE = struct.Struct("<q")
 
 
 def write_message(stream: IO[bytes], message: Message) -> None:
-    """Write one message, its length first."""
+    """Write one message, its length first, to a stream without a buffer."""
     data = pickle.dumps(message, protocol=4)
-    stream.write(_SIZE.pack(len(data)))
-    stream.write(data)
-    stream.flush()
+    left = memoryview(_SIZE.pack(len(data)) + data)
+    while left:
+        left = left[stream.write(left) :]
 
 
 def read_message(stream: IO[bytes]) -> Message | None:
@@ -135,7 +135,7 @@ class _Progress:
 def main(kernel: str) -> None:
     """Be the child process: messages come on stdin and go to stdout."""
     reading = os.fdopen(os.dup(0), "rb")
-    writing = os.fdopen(os.dup(1), "wb")
+    writing = os.fdopen(os.dup(1), "wb", buffering=0)
     os.dup2(2, 1)  # what anything prints must not get between the messages
     module = kernel_file.load(Path(kernel)) if kernel else None
     if module is not None:

@@ -4,13 +4,14 @@
 from __future__ import annotations
 
 import contextlib
+import io
 import queue
 import signal
 import subprocess
 import tempfile
 import threading
 from pathlib import Path
-from typing import Any, Protocol
+from typing import Any, Protocol, cast
 
 from freecad_tetra.errors import WorkerDied
 from freecad_tetra.workbench import child, child_python
@@ -54,7 +55,7 @@ class Process:
         self._stderr = tempfile.TemporaryFile()  # noqa: SIM115 (closed with the last word)
         self._process = subprocess.Popen(
             [python, "-c", _START, str(ROOT), child_python.numpy_folder(), kernel],
-            stdin=subprocess.PIPE, stdout=subprocess.PIPE, stderr=self._stderr,
+            stdin=subprocess.PIPE, stdout=subprocess.PIPE, stderr=self._stderr, bufsize=0,
             **child_python.no_window(),
         )  # fmt: skip
         for task in (self._write, self._read):
@@ -83,16 +84,17 @@ class Process:
     def _write(self) -> None:
         assert self._process.stdin is not None
         if hasattr(signal, "pthread_sigmask"):
-            # FreeCAD leaves it to the system what a broken pipe means: the end of FreeCAD.
+            # FreeCAD leaves it to the system what a broken pipe means: the end of FreeCAD. Nothing
+            # is buffered either, which another thread would write when it lets go of the pipe.
             signal.pthread_sigmask(signal.SIG_BLOCK, [signal.SIGPIPE])
         with contextlib.suppress(OSError, ValueError):
             while (message := self._outbox.get()) is not None:
                 child.write_message(self._process.stdin, message)
 
     def _read(self) -> None:
-        assert self._process.stdout is not None
+        reading = io.BufferedReader(cast(io.RawIOBase, self._process.stdout))
         with contextlib.suppress(Exception):  # a child that dies may leave half a message
-            while (message := child.read_message(self._process.stdout)) is not None:
+            while (message := child.read_message(reading)) is not None:
                 self.inbox.put(message)
         self._process.wait()
         self._outbox.put(None)

@@ -45,9 +45,10 @@ def shape_of_pieces(
     for _ in range(_TRIES):
         text = made if made and not alone else piece_text(pieces, 0.0, alone)
         shape = _shape(text)
-        if text.exact or shape.isValid():
+        solids = [] if text.exact else shape.Solids
+        faulty = [k for k, solid in enumerate(solids) if not solid.isValid()]
+        if not faulty:
             return shape
-        faulty = [k for k, solid in enumerate(shape.Solids) if not solid.isValid()]
         alone += text.kept[faulty].tolist()
     return _shape(piece_text(pieces, 0.0, None))
 

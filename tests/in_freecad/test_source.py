@@ -57,6 +57,13 @@ class Tessellation(InDocument):
         self.assertLess(by_height[0], by_height[1])
         self.assertLess(by_angle[0], by_angle[1])
 
+    def test_what_is_below_opencascades_least_is_its_least(self) -> None:
+        """A smaller deflection makes OpenCascade throw, and FreeCAD crash."""
+        small = source.solid_of(Part.makeBox(1e-5, 1e-5, 1e-5))
+        self.assertAlmostEqual(small.volume() / 1e-15, 1.0, delta=1e-9)
+        box = source.solid_of(Part.makeBox(1, 1, 1), linear=1e-20, angular=1e-20)
+        self.assertEqual(box.volume(), 1.0)
+
     def test_the_shape_is_left_as_it_was(self) -> None:
         shape = drilled_block()
         before = shape.dumpToString()

@@ -333,3 +333,10 @@ def test_fused_solids_with_seams_and_poles() -> None:
     solid = brep.tessellate(BRepAlgoAPI_Fuse(cone, ball).Shape())
     assert_closed(solid)
     assert solid.volume() == pytest.approx(solid.notes["brep_volume"], rel=0.02)
+
+
+def test_deflections_below_opencascades_least_are_its_least() -> None:
+    solid = as_solid(box(1e-5, 1e-5, 1e-5))
+    assert solid.volume() == pytest.approx(1e-15)
+    solid = as_solid(box(1, 1, 1), linear_deflection=1e-20, angular_deflection=1e-20)
+    assert len(solid.triangles) == 12 and solid.volume() == pytest.approx(1.0)
