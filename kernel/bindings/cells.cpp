@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // convex_cells(): exact convex cells of a valid surface, by the method that gives fewer, as a dict.
 #include "convert.h"
-#include "tetra/assemble/cells_of_fences.h"
-#include "tetra/solid/conform_contacts.h"
+#include "tetra/assemble/decompose_cells.h"
 #include "tetra/solid/snap.h"
 #include "tetra/solid/validate.h"
 
@@ -11,20 +10,11 @@ namespace {
 
 constexpr int kNotchBits = 26;  // the finest grid whose predicates fit 256 bits
 
-// `automatic` tries fences too on solids of so few triangles, where they cost little.
-constexpr std::size_t kFencedTriangles = 5000;
-
-// About one cell a notch is the least that most solids need; notches that cross one another make
-// more, and there fences may do better.
-constexpr double kCellsPerNotch = 1.1;
-
-enum class Method { bajaj_dey, fences, automatic };
-
-Method to_method(const nb::dict& options) {
+CellsMethod to_method(const nb::dict& options) {
     const auto method = option_or<std::string>(options, "method", "bajaj-dey");
-    if (method == "bajaj-dey") return Method::bajaj_dey;
-    if (method == "fences") return Method::fences;
-    if (method == "auto") return Method::automatic;
+    if (method == "bajaj-dey") return CellsMethod::bajaj_dey;
+    if (method == "fences") return CellsMethod::fences;
+    if (method == "auto") return CellsMethod::automatic;
     throw nb::value_error("option method must be auto, bajaj-dey or fences");
 }
 
@@ -51,16 +41,7 @@ CellsOptions to_options(const nb::dict& options) {
     return chosen;
 }
 
-// What was chosen, and how many pieces each method gave or why it gave none.
-struct Outcome {
-    ConvexCells cells;
-    Method method = Method::bajaj_dey;
-    std::vector<std::string> directions;  // of fences, per solid
-    int by_bajaj_dey = -1, by_fences = -1;
-    std::string note;
-};
-
-nb::dict to_report(const Outcome& outcome, double step) {
+nb::dict to_report(const CellsOutcome& outcome, double step) {
     const CellsStats& s = outcome.cells.stats;
     nb::dict counts;
     counts["notches"] = s.notches;
@@ -76,7 +57,7 @@ nb::dict to_report(const Outcome& outcome, double step) {
     repairs["restarts"] = s.restarts;
     repairs["demoted_classes"] = s.demoted;
     nb::dict report;
-    const bool fenced = outcome.method == Method::fences;
+    const bool fenced = outcome.method == CellsMethod::fences;
     report["method"] = fenced ? "fences" : "bajaj-dey";
     if (fenced) {
         nb::list directions;
@@ -116,91 +97,23 @@ nb::list exact_rows(const std::vector<HPoint>& points) {
     return rows;
 }
 
-// Facets in contact within one solid can leave a section that does not close; giving both sides of
-// every contact common vertices first helps there, and would only cost time elsewhere.
-ConvexCells cells_of(const GridSolid& grid, const std::vector<Vec3d>& vertices,
-                     const CellsOptions& options, Progress& progress) {
-    try {
-        return convex_cells(grid, vertices, options, progress);
-    } catch (const VerificationFailed&) {
-        return convex_cells(conform_contacts(grid), vertices, options, progress);
-    }
-}
-
-Outcome by_fences(const GridSolid& grid, const std::vector<Vec3d>& vertices, bool merge,
-                  Progress& progress) {
-    FencedCells fenced = cells_of_fences(grid, vertices, merge, progress);
-    Outcome outcome;
-    outcome.by_fences = static_cast<int>(fenced.cells.cell_solid.size());
-    outcome.cells = std::move(fenced.cells);
-    outcome.method = Method::fences;
-    outcome.directions = std::move(fenced.directions);
-    return outcome;
-}
-
-// Notch cutting first; fences where they are cheap and could win, and where notch cutting failed.
-Outcome by_fewer_pieces(const GridSolid& grid, const std::vector<Vec3d>& vertices,
-                        const CellsOptions& options, Progress& progress) {
-    Outcome cut;
-    try {
-        cut.cells = cells_of(grid, vertices, options, progress);
-    } catch (const VerificationFailed& e) {
-        Outcome fenced = by_fences(grid, vertices, options.merge, progress);
-        fenced.note = std::string("notch cutting failed: ") + e.what();
-        return fenced;
-    }
-    cut.by_bajaj_dey = static_cast<int>(cut.cells.cell_solid.size());
-    if (cut.cells.stats.notches == 0)
-        cut.note = "no notch to resolve";
-    else if (options.rule == NotchRule::plain)
-        cut.note = "the plain method was asked for";
-    else if (grid.triangles.size() > kFencedTriangles)
-        cut.note = "too many triangles to try fences";
-    else if (cut.by_bajaj_dey <= kCellsPerNotch * cut.cells.stats.notches)
-        cut.note = "few notches cross each other";
-    if (!cut.note.empty()) return cut;
-    try {
-        Outcome fenced = by_fences(grid, vertices, options.merge, progress);
-        Outcome& fewer = fenced.by_fences < cut.by_bajaj_dey ? fenced : cut;
-        fewer.by_bajaj_dey = cut.by_bajaj_dey;
-        fewer.by_fences = fenced.by_fences;
-        fewer.note = "fewer pieces";
-        if (fenced.by_fences == cut.by_bajaj_dey) fewer.note = "as many pieces by fences";
-        return std::move(fewer);
-    } catch (const VerificationFailed& e) {
-        cut.note = std::string("fences failed: ") + e.what();
-    } catch (const InvalidSolid& e) {
-        cut.note = std::string("fences failed: ") + e.what();
-    }
-    return cut;
-}
-
-Outcome run(Method method, const GridSolid& grid, const std::vector<Vec3d>& vertices,
-            const CellsOptions& options, Progress& progress) {
-    if (method == Method::fences) return by_fences(grid, vertices, options.merge, progress);
-    if (method == Method::automatic) return by_fewer_pieces(grid, vertices, options, progress);
-    Outcome outcome;
-    outcome.cells = cells_of(grid, vertices, options, progress);
-    return outcome;
-}
-
 nb::dict convex_cells_arrays(const VertexArray& vertex_array, const TriangleArray& triangle_array,
                              nb::handle solid_ids, const nb::dict& options, nb::object progress) {
     const std::vector<Vec3d> vertices = to_vertices(vertex_array);
     const std::vector<Triangle> triangles = to_triangles(triangle_array);
     const std::vector<int> solid = optional_ids(solid_ids);
     const CellsOptions chosen = to_options(options);
-    const Method method = to_method(options);
+    const CellsMethod method = to_method(options);
     double step = 0;
     Vec3d origin{};
-    Outcome outcome = without_gil(std::move(progress), [&](Progress& p) {
+    CellsOutcome outcome = without_gil(std::move(progress), [&](Progress& p) {
         const GridSolid grid =
             build_grid_solid(SurfaceView{vertices, triangles, {}, solid}, kNotchBits);
         step = grid.grid.step;
         origin = grid.grid.origin;
         std::vector<Defect> defects = find_defects(grid, p);
         if (!defects.empty()) throw InvalidSolid(std::move(defects));
-        return run(method, grid, vertices, chosen, p);
+        return decompose_cells(grid, vertices, method, chosen, p);
     });
     ConvexCells& cells = outcome.cells;
     nb::dict result;

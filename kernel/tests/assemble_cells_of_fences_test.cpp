@@ -28,7 +28,7 @@ Run run(const TestSolid& solid, bool merge = true) {
         r.vertices.push_back(
             {static_cast<double>(p[0]), static_cast<double>(p[1]), static_cast<double>(p[2])});
     Progress progress;
-    r.fenced = cells_of_fences(r.grid, r.vertices, merge, progress);
+    r.fenced = *cells_of_fences(r.grid, r.vertices, merge, std::nullopt, progress);
     return r;
 }
 
@@ -122,7 +122,7 @@ TEST(CellsOfFences, CancelsWhenAsked) {
     Progress stop([](const std::string&, double) { return false; });
     const GridSolid grid = grid_solid(chazelle(4));
     const std::vector<Vec3d> vertices(grid.points.size(), Vec3d{0, 0, 0});
-    EXPECT_THROW(cells_of_fences(grid, vertices, true, stop), Cancelled);
+    EXPECT_THROW(cells_of_fences(grid, vertices, true, std::nullopt, stop), Cancelled);
 }
 
 }  // namespace

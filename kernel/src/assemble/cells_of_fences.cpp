@@ -13,7 +13,17 @@
 namespace tetra {
 namespace {
 
+// Directions of much more walls than the best one hardly catch up by merging.
 constexpr std::size_t kFrames = 3;
+constexpr double kCostTried = 1.35;
+
+// Walls per cell before merging, and what merging leaves of cells at best (seen: 0.4).
+constexpr double kWallsPerCell = 3.3, kLeftByMerging = 0.4;
+
+struct Framed {
+    GridSolid solid;
+    std::vector<FenceDirection> frames;  // worth trying, best first
+};
 
 // The same plane before the map: n' . M p = (M^T n') . p, primitive as before since det M = 1.
 Plane plane_from_frame(const FenceDirection& frame, const Plane& plane) {
@@ -67,16 +77,25 @@ void append(ConvexCells& all, const ConvexCells& more) {
     all.stats.solid_volume += more.stats.solid_volume;
 }
 
-void add_solid(const GridSolid& solid, const std::vector<Vec3d>& vertices, bool merge,
-               Progress& progress, FencedCells& result) {
+Framed choose(GridSolid&& solid, bool in_haste, Progress& progress) {
     std::vector<DirectionTrial> trials;
     const std::vector<int> owners(solid.triangles.size(), 0);
-    std::vector<FenceDirection> frames = choose_frames(solid, owners, {}, trials, progress);
-    if (frames.size() > kFrames) frames.resize(kFrames);
+    Framed result{std::move(solid), {}};
+    result.frames = choose_frames(result.solid, owners, {}, trials, progress);
+    const double most = kCostTried * result.frames.front().cost;
+    if (in_haste)
+        std::erase_if(result.frames, [&](const FenceDirection& f) { return f.cost > most; });
+    if (result.frames.size() > kFrames) result.frames.resize(kFrames);
+    return result;
+}
+
+void add_solid(const Framed& framed, const std::vector<Vec3d>& vertices, bool merge,
+               Progress& progress, FencedCells& result) {
+    const GridSolid& solid = framed.solid;
     std::optional<ConvexCells> best;
     std::string direction;
     std::exception_ptr trouble;
-    for (const FenceDirection& frame : frames) {
+    for (const FenceDirection& frame : framed.frames) {
         const auto attempt = [&] {
             const Polyhedra polyhedra = polyhedra_of(solid, frame, progress);
             ConvexCells cells = merge_polyhedra(solid, vertices, polyhedra, merge, progress);
@@ -99,14 +118,22 @@ void add_solid(const GridSolid& solid, const std::vector<Vec3d>& vertices, bool 
 
 }  // namespace
 
-FencedCells cells_of_fences(const GridSolid& solid, const std::vector<Vec3d>& vertices, bool merge,
-                            Progress& progress) {
+std::optional<FencedCells> cells_of_fences(const GridSolid& solid,
+                                           const std::vector<Vec3d>& vertices, bool merge,
+                                           std::optional<std::size_t> beat, Progress& progress) {
     std::vector<int> ids = solid.solid;
     std::sort(ids.begin(), ids.end());
     ids.erase(std::unique(ids.begin(), ids.end()), ids.end());
+    std::vector<Framed> framed;
+    double walls = 0;
+    for (const int id : ids) {
+        framed.push_back(choose(solid_in_order(solid, id), beat.has_value(), progress));
+        walls += framed.back().frames.front().cost;
+    }
+    if (beat && walls / kWallsPerCell * kLeftByMerging > static_cast<double>(*beat))
+        return std::nullopt;
     FencedCells result;
-    for (const int id : ids)
-        add_solid(solid_in_order(solid, id), vertices, merge, progress, result);
+    for (const Framed& one : framed) add_solid(one, vertices, merge, progress, result);
     return result;
 }
 

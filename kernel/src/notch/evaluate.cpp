@@ -50,8 +50,8 @@ class Correction {
     int count_ = 0;
 };
 
-void follow_edge(const PointTable& points, const Line& line, const GridSolid& solid,
-                 const std::vector<Vec3d>& vertices, const Vec3d& at, Correction& correction) {
+void follow_edge(const Line& line, const GridSolid& solid, const std::vector<Vec3d>& vertices,
+                 const Vec3d& at, Correction& correction) {
     const Vec3d u = to_grid(solid.grid, vertices[solid.point_source[line.u]]);
     const Vec3d v = to_grid(solid.grid, vertices[solid.point_source[line.v]]);
     Vec3d e{v[0] - u[0], v[1] - u[1], v[2] - u[2]};
@@ -67,7 +67,6 @@ void follow_edge(const PointTable& points, const Line& line, const GridSolid& so
     const Vec3d gap{u[0] - at[0], u[1] - at[1], u[2] - at[2]};
     correction.add(n, dot(n, gap));
     correction.add(m, dot(m, gap));
-    (void)points;
 }
 
 }  // namespace
@@ -116,7 +115,7 @@ Vec3d evaluate_point(const PointTable& points, int point, const GridSolid& solid
     Correction correction;
     const int line = points.defining_line(point);
     if (line >= 0 && points.line(line).u >= 0)
-        follow_edge(points, points.line(line), solid, vertices, at, correction);
+        follow_edge(points.line(line), solid, vertices, at, correction);
     for (const int plane : points.on(point)) {
         if (!planes.has[plane]) continue;
         const std::array<double, 4>& n = planes.unit[plane];

@@ -3,6 +3,8 @@
 // first.
 #pragma once
 
+#include <array>
+#include <cmath>
 #include <vector>
 
 #include "flat_map.h"
@@ -18,6 +20,23 @@ struct Line {
 
 // A direction in exact integers, at most 4b+7 bits.
 using Direction = std::array<Int128, 3>;
+
+// The axis along which a direction or normal is longest, the first of several, and its sign there.
+struct Dominant {
+    int axis = 0;
+    int sign = 0;
+};
+
+template <class Integer>
+Dominant dominant(const std::array<Integer, 3>& d) {
+    const std::array<double, 3> m{std::fabs(static_cast<double>(d[0])),
+                                  std::fabs(static_cast<double>(d[1])),
+                                  std::fabs(static_cast<double>(d[2]))};
+    const int axis = m[0] >= m[1] && m[0] >= m[2] ? 0 : (m[1] >= m[2] ? 1 : 2);
+    return {axis, d[axis] > 0 ? 1 : (d[axis] < 0 ? -1 : 0)};
+}
+
+inline Dominant dominant(const Plane& p) { return dominant(Vec3i{p.a, p.b, p.c}); }
 
 // Signs of `side` above this many grid steps are trusted before incidence is asked; no vertex of
 // a plane class lies farther from its plane (NOTCHES 4).

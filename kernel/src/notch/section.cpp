@@ -22,8 +22,7 @@ struct Event {
 struct Slot {
     int key;
     Direction along;  // n_P x n_facet: chords run along it, Q on their left
-    int axis;         // the largest component of `along`
-    int sign;         // its sign
+    Dominant lead;    // of `along`
 };
 
 struct Ray {
@@ -36,13 +35,8 @@ class Tracer {
   public:
     Tracer(PointTable& points, HalfEdges& edges, Piece& piece, int plane, Workspace& work)
         : points_(points), edges_(edges), piece_(piece), plane_(plane), work_(work) {
-        const Plane& p = points.plane(plane);
-        const std::array<double, 3> n{std::fabs(static_cast<double>(p.a)),
-                                      std::fabs(static_cast<double>(p.b)),
-                                      std::fabs(static_cast<double>(p.c))};
-        frame_.axis = n[0] >= n[1] && n[0] >= n[2] ? 0 : (n[1] >= n[2] ? 1 : 2);
-        const std::int64_t lead = frame_.axis == 0 ? p.a : (frame_.axis == 1 ? p.b : p.c);
-        frame_.sign = lead > 0 ? 1 : -1;
+        const Dominant lead = dominant(points.plane(plane));
+        frame_ = {lead.axis, lead.sign};
     }
 
     Section run(Extent extent, const std::vector<char>& own) {
@@ -108,23 +102,17 @@ class Tracer {
         s.along = points_.cross(plane_, plane_of(key));
         if (key_sign(key) < 0)
             for (Int128& c : s.along) c = -c;
-        axis_of(s.along, s.axis, s.sign);
-        if (s.sign == 0) fail("facet parallel to the plane meets it", {plane_of(key)});
+        s.lead = dominant(s.along);
+        if (s.lead.sign == 0) fail("facet parallel to the plane meets it", {plane_of(key)});
         work_.slot_stamp[key] = work_.stamp;
         work_.slot[key] = static_cast<int>(slots_.size());
         slots_.push_back(s);
         return work_.slot[key];
     }
 
-    static void axis_of(const Direction& d, int& axis, int& sign) {
-        const std::array<double, 3> m{std::fabs(static_cast<double>(d[0])),
-                                      std::fabs(static_cast<double>(d[1])),
-                                      std::fabs(static_cast<double>(d[2]))};
-        axis = m[0] >= m[1] && m[0] >= m[2] ? 0 : (m[1] >= m[2] ? 1 : 2);
-        sign = d[axis] > 0 ? 1 : (d[axis] < 0 ? -1 : 0);
+    int along(const Slot& s, int a, int b) const {
+        return s.lead.sign * points_.compare(a, b, s.lead.axis);
     }
-
-    int along(const Slot& s, int a, int b) const { return s.sign * points_.compare(a, b, s.axis); }
 
     bool on_edge(int h) const { return side(edges_[h].org) == 0 && side(edges_.dest(h)) == 0; }
 
@@ -224,13 +212,8 @@ class Tracer {
         const HalfEdge& e = edges_[h];
         const int a = edges_.dest(h), b = edges_[e.prev].org;
         if (a == b) return false;
-        const Plane& f = points_.plane(plane_of(e.key));
-        const std::array<double, 3> n{std::fabs(static_cast<double>(f.a)),
-                                      std::fabs(static_cast<double>(f.b)),
-                                      std::fabs(static_cast<double>(f.c))};
-        const int axis = n[0] >= n[1] && n[0] >= n[2] ? 0 : (n[1] >= n[2] ? 1 : 2);
-        const std::int64_t lead = axis == 0 ? f.a : (axis == 1 ? f.b : f.c);
-        const int turn = points_.orient(e.org, a, b, axis) * (lead > 0 ? 1 : -1) * key_sign(e.key);
+        const Dominant lead = dominant(points_.plane(plane_of(e.key)));
+        const int turn = points_.orient(e.org, a, b, lead.axis) * lead.sign * key_sign(e.key);
         return turn > 0;
     }
 
@@ -319,10 +302,9 @@ class Tracer {
         s.from.point = edges_[h].org;
         s.to.point = edges_.dest(h);
         s.direction = points_.direction(s.line);
-        int axis = 0, sign = 0;
-        axis_of(s.direction, axis, sign);
-        if (sign == 0) fail("edge without a direction", {plane_of(edges_[h].key)});
-        if (sign * points_.compare(s.to.point, s.from.point, axis) < 0)
+        const Dominant lead = dominant(s.direction);
+        if (lead.sign == 0) fail("edge without a direction", {plane_of(edges_[h].key)});
+        if (lead.sign * points_.compare(s.to.point, s.from.point, lead.axis) < 0)
             for (Int128& c : s.direction) c = -c;
         section_.segments.push_back(s);
     }
