@@ -316,10 +316,11 @@ def check(
     from freecad_tetra.io import results
 
     stored = results.read_result(path)
-    surface = validate(source, progress=progress, **reading).surface()
+    found = validate(source, progress=progress, **reading)
     if isinstance(stored, results.StoredTets):
+        surface = kernel.outer_surface(found, progress)
         return verify.check_tets(surface, stored.points, stored.tets, progress)
-    return verify.check_cells(surface, stored.points, stored.cells, progress)
+    return verify.check_cells(found.surface(), stored.points, stored.cells, progress)
 
 
 def write(

@@ -287,6 +287,31 @@ def limit_cells(
     return _call(
         "limit_cells", solid, None, cells.points, cells.facet_offsets, cells.facet_vertices,
         cells.facet_source, cells.cell_offsets, cells.cell_solid, max_cells, max_vertices, progress,
+    )
+
+
+def outer_surface(checked: Validation, progress: Progress | None = None) -> Solid:
+    """Return what bounds all solids together: their surface without contacts between them.
+
+    That is what tetrahedra of several solids are bounded by. Planes in contact are divided as
+    they are for the tetrahedra, so there may be more vertices than in `checked`; for one solid it
+    is ``checked.surface()``.
+
+    Raises
+    ------
+    InvalidSolid, VerificationFailed, Cancelled, KernelMissing
+    """
+    whole = checked.surface()
+    if whole.solid_ids is None or len(np.unique(whole.solid_ids)) < 2:
+        return whole
+    found = _call(
+        "outer_surface", checked.solid, checked.triangle_source, whole.vertices, whole.triangles,
+        whole.solid_ids, progress,
+    )  # fmt: skip
+    source = np.asarray(found["triangle_source"], np.int64)
+    return Solid(
+        found["vertices"], found["triangles"], whole.face_ids[source], whole.face_names, whole.name,
+        whole.solid_ids[source], whole.notes, whole.labels,
     )  # fmt: skip
 
 

@@ -11,7 +11,7 @@ from collections.abc import Callable, Mapping
 from pathlib import Path
 from typing import Any
 
-from freecad_tetra import api, export
+from freecad_tetra import api, export, kernel
 from freecad_tetra.cli import robot, shown
 from freecad_tetra.cli.meter import Meter
 from freecad_tetra.errors import (
@@ -207,7 +207,9 @@ def _write_all(
 ) -> None:
     meter("write", 0.0)
     if arguments.surface:
-        export.write(found.surface(), arguments.surface)
+        tets = isinstance(result, TetMesh)
+        surface = kernel.outer_surface(found, meter) if tets else found.surface()
+        export.write(surface, arguments.surface)
     export.write(result, arguments.output, getattr(arguments, "order", 1))
     _write_report(arguments, {**report.to_dict(), "exit_code": DONE})
 

@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // tetrahedralize(): conforming tetrahedra of a valid surface, as a dict.
-#include "tetra/assemble/tetrahedralize.h"
+#include "tetra/assemble/imprint_contacts.h"
 
 #include <algorithm>
 
 #include "convert.h"
+#include "tetra/assemble/tetrahedralize.h"
 
 namespace tetra::python {
 namespace {
@@ -274,9 +275,35 @@ nb::dict tetrahedralize_arrays(const VertexArray& vertices, const TriangleArray&
     return result;
 }
 
+nb::dict outer_surface_arrays(const VertexArray& vertices, const TriangleArray& triangles,
+                              const nb::object& solid, nb::object progress) {
+    const TetInput input{to_vertices(vertices), to_triangles(triangles), optional_ids(solid), {}};
+    const Imprint imprint =
+        without_gil(std::move(progress), [&](Progress& p) { return imprint_contacts(input, p); });
+    std::vector<Triangle> outer;
+    std::vector<int> source;
+    for (std::size_t t = 0; t < imprint.contact.size(); ++t) {
+        if (imprint.contact[t] >= 0) continue;
+        outer.push_back(imprint.surface.triangles[t]);
+        source.push_back(imprint.source[t]);
+    }
+    nb::dict result;
+    result["vertices"] = rows_to_numpy(imprint.surface.vertices);
+    result["triangles"] = rows_to_numpy(outer);
+    result["triangle_source"] = to_numpy(std::move(source));
+    return result;
+}
+
 }  // namespace
 
 void bind_tets(nb::module_& m) {
+    m.def("outer_surface", &outer_surface_arrays, nb::arg("vertices"), nb::arg("triangles"),
+          nb::arg("solid") = nb::none(), nb::arg("progress") = nb::none(),
+          R"(What bounds all solids together: their surface without the contacts between them.
+
+vertices f64 (n, 3); triangles i32 (m, 3), index base 0, valid; solid i32 (m,) or None.
+Returns a dict: `vertices` f64 (n + k, 3), `triangles` i32 (u, 3), `triangle_source` i32 (u,).
+Raises VerificationFailed, Cancelled.)");
     m.def("tetrahedralize", &tetrahedralize_arrays, nb::arg("vertices"), nb::arg("triangles"),
           nb::arg("solid") = nb::none(), nb::arg("options") = nb::dict(),
           nb::arg("progress") = nb::none(),

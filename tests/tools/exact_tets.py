@@ -232,7 +232,8 @@ def _check_skin_sources(
     base = vertices[triangles[source, 0]]
     size = float(np.abs(vertices - vertices.mean(axis=0)).max())
     height = np.einsum("sij,sj->si", points[skin] - base[:, None], normals[source])
-    reach = 2**-18 if moved else 2**-40
+    # Thin triangles of one plane differ by more than the rounding of their corners.
+    reach = 2**-18 if moved else 2**-38
     require(float(np.abs(height).max()) <= reach * size, "a skin triangle is off its source")
     same_way = np.einsum("ij,ij->i", _areas(points, skin), normals[source])
     # Corners on one straight line of the caller's: their area is rounding and faces nowhere.

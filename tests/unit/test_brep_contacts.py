@@ -3,6 +3,7 @@
 
 from __future__ import annotations
 
+import subprocess
 import sys
 from pathlib import Path
 from typing import Any
@@ -12,6 +13,7 @@ import pytest
 
 from freecad_tetra.api import as_solid, tetrahedralize, validate
 from freecad_tetra.brep import read_shape
+from freecad_tetra.cli import main
 
 pytest.importorskip("OCP", reason="cadquery-ocp is not installed")
 
@@ -92,7 +94,8 @@ def test_step_assemblies_are_face_to_face(tmp_path: Path, name: str, turn: bool)
     assert mesh.report.details["surface"]["shared_faces"] >= 1
 
 
-PART = Path(__file__).parents[3] / "shared" / "corpus" / "brep" / "page68_bybejant.brep"
+SHARED = Path(__file__).parents[3] / "shared"
+PART, JUDGE = SHARED / "corpus" / "brep" / "page68_bybejant.brep", SHARED / "check" / "verify.py"
 
 
 @pytest.mark.skipif(not PART.is_file(), reason=f"{PART} is not here")
@@ -116,6 +119,20 @@ def area_of_skin(mesh: Any) -> float:
     corners = mesh.points[mesh.skin]
     normals = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
     return float(np.linalg.norm(normals, axis=1).sum() / 2)
+
+
+def test_files_are_checked_against_the_common_surface(tmp_path: Path) -> None:
+    """The tetrahedra of touching solids are bounded by what bounds all of them together."""
+    step, out, off = (tmp_path / name for name in ("in.step", "out.vtu", "surface.off"))
+    writer = STEPControl_Writer()
+    writer.Transfer(pin_in_plate(), STEPControl_StepModelType.STEPControl_AsIs)
+    writer.Write(str(step))
+    assert main(["tets", str(step), "-o", str(out), "--surface", str(off)]) == 0
+    assert main(["check", str(step), str(out)]) == 0
+    if JUDGE.is_file():
+        judge = [sys.executable, str(JUDGE), "tets", str(off), str(out)]
+        done = subprocess.run(judge, capture_output=True, text=True, timeout=300)
+        assert done.returncode == 0, done.stdout + done.stderr
 
 
 def test_faces_keep_their_numbers() -> None:

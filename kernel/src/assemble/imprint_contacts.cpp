@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Triangles are overlaid like facets of cells, bounded by planes upright on their own.
-#include "imprint_contacts.h"
+#include "tetra/assemble/imprint_contacts.h"
 
 #include <algorithm>
 #include <cmath>

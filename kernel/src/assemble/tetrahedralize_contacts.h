@@ -6,7 +6,7 @@
 #include <map>
 #include <set>
 
-#include "imprint_contacts.h"
+#include "tetra/assemble/imprint_contacts.h"
 #include "tetrahedralize_solid.h"
 
 namespace tetra {
