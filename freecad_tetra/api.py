@@ -134,6 +134,7 @@ def convex_cells(
     max_cells, max_vertices : int, optional
         Limits of a physics engine: cells are merged into hulls that cover the part and no
         longer partition it, at an error that is reported; see `freecad_tetra.limits.limit`.
+        With method "auto" several partitions are merged, and the one that errs least is taken.
     progress : callable, optional
         ``progress(stage, fraction)``; returning False cancels.
     **reading
@@ -151,6 +152,8 @@ def convex_cells(
     cells = kernel.convex_cells(found, options, progress)
     if max_cells is None and max_vertices is None:
         return cells
+    if method == "auto":
+        return limits.least_error(found, cells, max_cells, max_vertices, progress)
     return limits.limit(cells, max_cells, max_vertices, progress)
 
 

@@ -3,15 +3,21 @@
 
 from __future__ import annotations
 
+import contextlib
+from collections.abc import Iterator
 from dataclasses import replace
 from typing import Any
 
 import numpy as np
 
 from freecad_tetra import kernel, mass
-from freecad_tetra.errors import BadOption
-from freecad_tetra.kernel import Progress
+from freecad_tetra.errors import BadOption, InvalidSolid, VerificationFailed
+from freecad_tetra.export import pieces
+from freecad_tetra.kernel import Progress, Validation
 from freecad_tetra.model import ConvexCells
+
+# A partition of more pieces is not tried beside the one at hand: merging takes seconds.
+MOST_TRIED = 3000
 
 
 def limit(
@@ -70,6 +76,58 @@ def limit(
     details = {**cells.report.details, **mass.as_detail(mass.of_cells(cells)), "limits": told}
     counts = {**cells.report.counts, "pieces": len(made), "points": len(made.points)}
     return replace(made, report=replace(cells.report, details=details, counts=counts))
+
+
+def least_error(
+    solid: Validation,
+    cells: ConvexCells,
+    max_cells: int | None,
+    max_vertices: int | None,
+    progress: Progress | None = None,
+) -> ConvexCells:
+    """Limit cells and, when some must be merged, other partitions of the solid too.
+
+    Merging can only join what a partition has cut apart, and no way of cutting suits all parts:
+    of the cells as given, those of the other method and tetrahedra, the one is returned whose
+    hulls stray least. ``report.details["limits"]["tried"]`` has the error of each.
+
+    Parameters
+    ----------
+    solid : Validation
+        What the cells partition.
+    cells, max_cells, max_vertices, progress
+        As of `limit`.
+    """
+    best = limit(cells, max_cells, max_vertices, progress)
+    tried = {cells.report.method: _error(best)}
+    if max_cells is not None and len(cells) > max_cells:
+        for name, other in _others(solid, cells, progress):
+            found = limit(other, max_cells, max_vertices, progress)
+            tried[name] = _error(found)
+            best = min(best, found, key=_error)
+    told = {**best.report.details["limits"], "tried": tried}
+    details = {**best.report.details, "limits": told}
+    return replace(best, report=replace(best.report, details=details))
+
+
+def _error(cells: ConvexCells) -> float:
+    return float(cells.report.details["limits"]["hull_error"])
+
+
+def _others(
+    solid: Validation, cells: ConvexCells, progress: Progress | None
+) -> Iterator[tuple[str, ConvexCells]]:
+    """Yield the other partitions that can be had and are not too large."""
+    for method in ("bajaj-dey", "fences"):
+        if method == cells.report.method or len(cells) > MOST_TRIED:
+            continue
+        with contextlib.suppress(VerificationFailed, InvalidSolid):
+            yield method, kernel.convex_cells(solid, {"method": method}, progress)
+    with contextlib.suppress(VerificationFailed):
+        if len(cells) <= MOST_TRIED / 3:
+            mesh = kernel.tetrahedralize(solid, {}, progress)
+            if len(mesh) <= MOST_TRIED:
+                yield "tetrahedra", pieces.as_cells(mesh)
 
 
 def _gathered(cells: ConvexCells, found: dict[str, Any]) -> ConvexCells:

@@ -99,6 +99,10 @@ def _workplane(plane: Any) -> NamedShape | None:
                 continue
             holds_solids = _numbers(part, SOLID).Extent() > 0
             (solids if holds_solids else faces).append((name, part))
+    for value in plane.vals():
+        own = as_shape(value)
+        if own is not None:
+            solids.extend(_labelled(value, own, ""))
     return NamedShape(shape, tuple(solids), tuple(faces))
 
 
@@ -126,9 +130,10 @@ def _is_unnamed(name: str) -> bool:
 
 
 def _labelled(value: Any, shape: Any, outer: str) -> Iterator[tuple[str, Any]]:
-    """Yield the labels of a build123d object and of its children, innermost first."""
+    """Yield the label of an object and those of its children (build123d), innermost first."""
     label = str(getattr(value, "label", "") or "") or outer
-    children = list(getattr(value, "children", ()) or ())
+    children = getattr(value, "children", ())
+    children = [] if callable(children) else list(children)  # cadquery's is a method
     parts = list(_direct_parts(shape)) if children else []
     if len(parts) == len(children):
         for child, part in zip(children, parts):

@@ -20,36 +20,41 @@ struct Candidate {
 
 }  // namespace
 
-void raise_to(HullError& error, std::span<const Vec3d> points, std::span<const Triangle> triangles,
-              const PartDistance& distance, Progress& progress) {
+double hull_error(std::span<const Vec3d> points, std::span<const Triangle> triangles,
+                  const PartDistance& distance, double& found, Progress& progress) {
     std::priority_queue<Candidate> queue;
     const auto enter = [&](const Corners& corners) {
+        if (distance.in_one_cell(corners)) return;
         const Ball ball = ball_around(corners);
-        if (ball.radius <= kSlack * error.found || distance.in_one_cell(corners)) return;
         const double middle = distance(ball.middle);
-        error.found = std::max(error.found, middle);
-        if (middle + ball.radius > kSlack * error.found)
-            queue.push({middle + ball.radius, corners});
+        found = std::max(found, middle);
+        if (middle + ball.radius > kSlack * found) queue.push({middle + ball.radius, corners});
     };
     for (const Triangle& t : triangles) {
         Corners corners;
-        for (std::size_t k = 0; k < 3; ++k) corners[k] = points[static_cast<std::size_t>(t[k])];
-        for (const Vec3d& p : corners) error.found = std::max(error.found, distance(p));
-        enter(corners);
+        double farthest = 0;
+        for (std::size_t k = 0; k < 3; ++k) {
+            corners[k] = points[static_cast<std::size_t>(t[k])];
+            farthest = std::max(farthest, distance(corners[k]));
+        }
+        found = std::max(found, farthest);
+        // From any point of a triangle its nearest corner is no farther than the radius.
+        if (farthest + ball_around(corners).radius > kSlack * found) enter(corners);
     }
+    // What is left out reaches no farther than `left`, or touches the part.
+    double left = distance.touching();
     for (int seen = 0; !queue.empty(); ++seen) {
         const Candidate next = queue.top();
-        if (next.bound <= kSlack * error.found) break;
+        if (next.bound <= kSlack * found) break;
         if (seen >= kMostTriangles) {
-            error.bound = std::max(error.bound, next.bound);
+            left = next.bound;
             break;
         }
         queue.pop();
         progress.poll("hull_error", 0);
         for (const Corners& quarter : quarters(next.corners)) enter(quarter);
     }
-    // What was left out reaches no farther than that, or touches the part.
-    error.bound = std::max({error.bound, kSlack * error.found, distance.touching()});
+    return std::max(left, kSlack * found);
 }
 
 }  // namespace tetra

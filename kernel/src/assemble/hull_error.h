@@ -7,16 +7,11 @@
 
 namespace tetra {
 
-struct HullError {
-    double bound = 0;  // no point of a surface is farther from the part
-    double found = 0;  // and one is as far as this
-};
-
-// Raises `error` to what the triangles of a hull need, by branch and bound: the distance from the
-// part is 1-Lipschitz, so a triangle holds no point farther than its middle's distance and the
-// distance of its corners from there. Ends when bound and found differ by 5 % or less, or after
-// 20,000 triangles, when `bound` is still true.
-void raise_to(HullError& error, std::span<const Vec3d> points, std::span<const Triangle> triangles,
-              const PartDistance& distance, Progress& progress);
+// An upper bound for the distance of a hull's surface from the part, by branch and bound: the
+// distance is 1-Lipschitz, so a triangle holds no point farther than its middle's distance and
+// that of its corners from there. `found` is raised to what some point has. Ends when nothing can
+// be 5 % farther than that, or after 20,000 triangles, when the bound is still true.
+double hull_error(std::span<const Vec3d> points, std::span<const Triangle> triangles,
+                  const PartDistance& distance, double& found, Progress& progress);
 
 }  // namespace tetra

@@ -140,17 +140,20 @@ class Limiter {
     void measure() {
         std::stable_sort(changed_.begin(), changed_.end(),
                          [](const Changed& x, const Changed& y) { return x.growth6 > y.growth6; });
-        HullError whole, merged;
-        double simplified = 0;
         for (const Changed& change : changed_) {
             result_.volume_added += change.growth6 / 6;
-            raise_to(whole, result_.points, change.triangles, distance_, progress_);
-            raise_to(merged, part_.points, change.hull, distance_, progress_);
-            simplified = std::max(simplified, change.simplified);
+            double bound = error_of(part_.points, change.hull);
+            if (change.simplified > 0) {
+                // Straight to the part, or first to the hull and on from there.
+                bound =
+                    std::min(bound + change.simplified, error_of(result_.points, change.triangles));
+            }
+            result_.error = std::max(result_.error, bound);
         }
-        // From the surface of a piece to its hull, and on to the part.
-        result_.error = std::min(whole.bound, merged.bound + simplified);
-        result_.error_found = whole.found;
+    }
+
+    double error_of(const std::vector<Vec3d>& points, const std::vector<Triangle>& triangles) {
+        return hull_error(points, triangles, distance_, result_.error_found, progress_);
     }
 };
 

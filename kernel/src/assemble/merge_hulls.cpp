@@ -148,7 +148,10 @@ class Merger {
             bridging = {*std::ranges::max_element(bridging, {}, radius)};
         }
         const int divisions = pair.known == Known::all ? kDivisions : 0;
-        for (const Corners& corners : bridging) look(corners, divisions, pair.stray);
+        for (const Corners& corners : bridging)
+            if (ball_around(corners).radius >
+                std::max(pair.stray, level_))  // corners are on the part
+                look(corners, divisions, pair.stray);
         if (pair.stray <= distance_.touching()) pair.stray = 0;
         heap_.push(pair);
     }
@@ -169,11 +172,11 @@ class Merger {
     // Raises `stray` to the distances of samples of a triangle that may be farther away.
     void look(const Corners& corners, int divisions, double& stray) const {
         const Ball ball = ball_around(corners);
-        // The corners lie on the part; and what has been merged strays as far as `level_` already.
-        if (ball.radius <= std::max(stray, level_) || distance_.in_one_cell(corners)) return;
+        if (distance_.in_one_cell(corners)) return;
         const double middle = distance_(ball.middle);
         stray = std::max(stray, middle);
-        if (divisions == 0 || middle + ball.radius <= stray) return;
+        // What has been merged strays as far as `level_` already.
+        if (divisions == 0 || middle + ball.radius <= std::max(stray, level_)) return;
         for (const Corners& quarter : quarters(corners)) look(quarter, divisions - 1, stray);
     }
 
