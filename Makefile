@@ -75,7 +75,7 @@ install-freecad:
 test-freecad: export MAKE := $(MAKE)
 test-freecad: export JOBS := $(JOBS)
 test-freecad:
-	tools/install_debian.sh freecad g++ cmake ninja-build python3-dev python3-venv
+	tools/install_debian.sh freecad calculix-ccx g++ cmake ninja-build python3-dev python3-venv
 	QT_QPA_PLATFORM=offscreen tools/install_freecad.sh --kernel-only
 	tests/in_freecad/run_headless
 

@@ -11,6 +11,7 @@ packages=(
     libgtest-dev clang-format
     # Tests look at the HTML view in the one, and run a macro in the other.
     chromium chromium-driver freecad
+    calculix-ccx  # solves the benchmarks of meshes for analysis
     # Shared libraries that cadquery-ocp and gmsh load at run time.
     libgl1 libglu1-mesa libxrender1 libxcursor1 libxft2 libxinerama1 libxfixes3 libxext6 libsm6
     libice6 libfontconfig1 libgomp1

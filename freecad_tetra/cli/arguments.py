@@ -70,7 +70,9 @@ def _tets(command: argparse.ArgumentParser) -> None:
 
 
 def _fem(command: argparse.ArgumentParser) -> None:
-    group = command.add_argument_group("for analysis", "the last three act with --quality")
+    group = command.add_argument_group(
+        "for analysis", "chord, turn and face size act with --quality"
+    )
     group.add_argument("--order", type=int, choices=(1, 2), default=1, help="2: nodes amid edges")
     group.add_argument("--quality", action="store_true", help="better elements, by mmg3d")
     group.add_argument(

@@ -29,7 +29,7 @@ CHORD_SHARE = 1e-3  # of the diagonal
 SHARP = np.radians(20.0)  # from here on the turn at a B-rep edge is a ridge
 WANTED_DIHEDRAL = np.radians(10.0)  # below it another pass is tried
 PASSES = 2
-_AREA_SHARE, _VOLUME_SHARE = 0.05, 5e-3  # facets of both are off round faces by so much
+_AREA_SHARE, _VOLUME_SHARE = 0.05, 0.02  # facets of both are off round faces by so much
 
 Told = Callable[[str, float], "bool | None"] | None
 
@@ -91,7 +91,7 @@ def remesh(
     ------
     RemeshingFailed, Cancelled
     VerificationFailed
-        The area of a face changed by more than 5 %, or the volume by more than 0.5 %.
+        The area of a face changed by more than 5 %, or a volume by more than 2 %.
     """
     wanted = sizes or Sizes()
     size = wanted.size or SIZE_SHARE * diagonal(mesh)
@@ -238,13 +238,17 @@ def _local(mesh: TetMesh, wanted: Sizes, size: float, chord: float) -> str:
 def face_radii(mesh: TetMesh) -> dict[int, float]:
     """Return a radius of curvature of every curved face, from the turns between its facets.
 
-    The lower tenth over the edges inside a face of (distance of the triangles' centres) / (angle
-    between them), so a single bad facet does not decide.
+    The lower tenth over the edges inside a face of (mean height of the two triangles over the
+    edge) / (angle between them), so a single bad facet does not decide.
     """
     table = skin.skin_edges(mesh.skin)
     inner = skin.faces_of_edges(table, mesh.skin_face)
     turn = _turns(mesh, table)
-    centre = mesh.points[mesh.skin].mean(axis=1)
+    corners = mesh.points[mesh.skin]
+    double = np.linalg.norm(
+        np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0]), axis=1
+    )
+    length = np.linalg.norm(mesh.points[table.ends[:, 1]] - mesh.points[table.ends[:, 0]], axis=1)
     index = table.of_triangle.reshape(-1)
     order = np.argsort(index, kind="stable")
     start = np.cumsum(table.count) - table.count
@@ -254,8 +258,8 @@ def face_radii(mesh: TetMesh) -> dict[int, float]:
         bent = rows[(table.count[rows] == 2) & (turn[rows] > 1e-3)]
         if len(faces) > 1 or not len(bent):
             continue
-        a, b = centre[owner[start[bent]]], centre[owner[start[bent] + 1]]
-        radius = np.linalg.norm(a - b, axis=1) / turn[bent]
+        heights = double[owner[start[bent]]] + double[owner[start[bent] + 1]]
+        radius = heights / (2 * length[bent] * turn[bent])
         out[faces[0]] = float(np.quantile(radius, 0.1))
     return out
 

@@ -19,7 +19,7 @@ from freecad_tetra import brep, kernel_file
 from freecad_tetra.errors import BadOption, TetraError
 from freecad_tetra.fem.prepare import FemOptions, prepare
 from freecad_tetra.fem.remesh import Sizes
-from freecad_tetra.model import Tet10Mesh, TetMesh
+from freecad_tetra.model import TetMesh
 from freecad_tetra.workbench import (
     compat,
     constraints,
@@ -115,9 +115,11 @@ def options_of(obj: Any, names: tuple[str, ...]) -> FemOptions:
     by_number = {names.index(name): size for name, size in asked.items()}
     size = compat.millimetres(obj.ElementSize) or None
     turn = float(obj.ElementsPerTurn)
-    sizes = Sizes(size, None, turn, by_number)
     packages = (*compat.package_folders(), *kernel_file.checkout_packages())
-    return FemOptions(_order(obj.Order), bool(obj.Quality), sizes, obj.Refinement, packages)
+    return FemOptions(
+        _order(obj.Order), bool(obj.Quality), Sizes(size, None, turn, by_number), obj.Refinement,
+        packages,
+    )  # fmt: skip
 
 
 def face_sizes(lines: Any) -> dict[str, float]:
@@ -143,11 +145,7 @@ def _fill(obj: Any, mesh: TetMesh, shape: Any) -> None:
     """Prepare the mesh for analysis and hand it to FreeCAD; warnings go to the report view."""
     project = None if shape is None else brep.projector(brep.as_shape(shape))
     options = options_of(obj, mesh.face_names)
-
-    def work(told: Any) -> TetMesh | Tet10Mesh:
-        return prepare(mesh, options, project, told)
-
-    made = progress.watched(work, obj.Label)
+    made = progress.watched(lambda told: prepare(mesh, options, project, told), obj.Label)
     obj.FemMesh = fem_mesh.fem_mesh(made)
     store.figures(obj, made)
     corners = int(made.tets[:, :4].max()) + 1
