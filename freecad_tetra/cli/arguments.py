@@ -74,13 +74,11 @@ def _fem(command: argparse.ArgumentParser) -> None:
         "for analysis", "chord, turn and face size act with --quality"
     )
     group.add_argument("--order", type=int, choices=(1, 2), default=1, help="2: nodes amid edges")
-    group.add_argument("--quality", action="store_true", help="better elements, by mmg3d")
     group.add_argument(
-        "--size",
-        type=_positive,
-        metavar="MM",
-        help="longest edge",
+        "--refine", type=_times, default=0, metavar="N", help="divide each element into 8, N times"
     )
+    group.add_argument("--size", type=_positive, metavar="MM", help="longest edge")
+    group.add_argument("--quality", action="store_true", help="better elements, by mmg3d")
     group.add_argument(
         "--chord",
         type=_positive,
@@ -98,9 +96,6 @@ def _fem(command: argparse.ArgumentParser) -> None:
         "--face-size", type=_face_size, action="append", default=[], metavar="FaceN=MM",
         help="longest edge on one B-rep face",
     )  # fmt: skip
-    group.add_argument(
-        "--refine", type=_times, default=0, metavar="N", help="divide each element into 8, N times"
-    )
 
 
 def _cells(command: argparse.ArgumentParser) -> None:

@@ -106,7 +106,7 @@ class Groups(InAnalysis):
             self.assertEqual(contents(again.getObject(name).FemMesh), before)
 
     def test_load_on_a_face_that_is_not_meshed_is_told(self) -> None:
-        block, mesh = self.block()
+        _, mesh = self.block()
         pressure = self.doc.getObject("Pressure")
         far = self.feature_of(Part.makeBox(1, 1, 1, FreeCAD.Vector(50, 0, 0)), "Far")
         pressure.References = [(far, "Face1")]
