@@ -94,10 +94,8 @@ class TenParts(InAnalysis):
         self.assertAlmostEqual(volume / part.Shape.Volume, 1, delta=1e-3)
         self.faces_are_kept(part, mesh, points)
         self.arrived(name, solve.solve(self.analysis))
-        print(
-            f"{name}: {len(tets)} elements, least angle "
-            f"{np.degrees(found.min_dihedral.min()):.2f}, volume {volume / part.Shape.Volume - 1:.1e}"
-        )
+        least, off = np.degrees(found.min_dihedral.min()), volume / part.Shape.Volume - 1
+        print(f"{name}: {len(tets)} elements, least angle {least:.2f}, volume {off:.1e}")
 
     def arrived(self, name: str, solution: solve.Solution) -> None:
         """Every load is within a hundredth and the support carries it."""
