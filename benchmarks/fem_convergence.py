@@ -46,7 +46,7 @@ def growth(mesh: cx.Mesh, folder: Path) -> float:
     cuts = [cx.face_at(mesh, lambda p, a=a, x=x: np.abs(p[:, a] - x) < 1e-7) for a, x in flat]
     fixed = {cut.name: (axis,) for cut, axis in zip(cuts, (1, 2, 3, 3))}
     loads = ["*DSLOAD", f"{bore.name}_surface,P,{PRESSURE}"]
-    found = cx.solve(folder, mesh, fixed, loads)
+    found = cx.solve(folder, mesh, fixed, loads, limit=3000)
     on = np.abs(radius - OUTER) < 1e-7
     moved = found.displacement[on]
     out = (moved[:, :2] * mesh.points[on, :2]).sum(axis=1) / OUTER

@@ -53,6 +53,7 @@ def solve(
     fixed: dict[str, Sequence[int]],
     loads: Sequence[str],
     materials: dict[str, tuple[float, float]] | None = None,
+    limit: float = 300,
 ) -> Found:
     """Solve a linear static step; `fixed` gives degrees of freedom (1 to 3) by node set."""
     export.write(mesh, folder / "mesh.inp")
@@ -68,7 +69,7 @@ def solve(
     deck += ["*END STEP", ""]
     (folder / "job.inp").write_text("\n".join(deck))
     done = subprocess.run(
-        ["ccx", "-i", "job"], cwd=folder, capture_output=True, text=True, timeout=300, check=False
+        ["ccx", "-i", "job"], cwd=folder, capture_output=True, text=True, timeout=limit, check=False
     )
     assert done.returncode == 0 and "ERROR" not in done.stdout, done.stdout[-2000:]
     count = len(mesh.points)
