@@ -35,12 +35,16 @@ class Puller {
         if (options.mode == PullMode::crossings) {
             const std::vector<VertexPair> edges = sharp_edges(surface_);
             seen_ = std::make_unique<ProjectedEdges>(points, edges.size());
-            result_.crossings_before = replace_seen({}, edges, {});
-            result_.crossings_after = result_.crossings_before;
+            result_.crossings_before = result_.crossings_after = add(edges, {});
         }
     }
 
     PullOff run() {
+        // Without crossings the mode could only save sharp edges, which is not what it is for.
+        if (result_.crossings_before == 0) {
+            finish();
+            return std::move(result_);
+        }
         const std::vector<int> all = used_points(surface_);
         total_ = all.size() + 1;
         for (const int v : all) push(v);
@@ -180,7 +184,8 @@ class Puller {
         record(cup, flips);
         if (closing) close(cup, added.back());
         if (watch && closing) {
-            result_.crossings_after += replace_seen(before, sharp_among(around), {});
+            result_.crossings_after -= take_off(before, {});
+            result_.crossings_after += add(sharp_among(around), {});
         }
         for (const int v : touched) {
             if (surface_.star_of(v).empty()) tree_.erase(v);
@@ -239,38 +244,51 @@ class Puller {
         return sharp;
     }
 
-    // Erases `before` from the seen edges, inserts `after`; returns the change in crossings.
-    std::int64_t replace_seen(const std::vector<VertexPair>& before,
-                              const std::vector<VertexPair>& after,
-                              const std::vector<VertexPair>& unchanged) {
-        std::int64_t change = 0;
-        const auto skip = [&](const VertexPair& e) {
-            return is_vertical(surface_, e) ||
-                   std::binary_search(unchanged.begin(), unchanged.end(), e);
-        };
-        for (const VertexPair& e : before) {
-            if (skip(e)) continue;
+    // The vertical ones and those in `unchanged` don't matter.
+    template <class Visit>
+    void for_each_seen(const std::vector<VertexPair>& edges,
+                       const std::vector<VertexPair>& unchanged, const Visit& visit) const {
+        for (const VertexPair& e : edges)
+            if (!is_vertical(surface_, e) &&
+                !std::binary_search(unchanged.begin(), unchanged.end(), e))
+                visit(e);
+    }
+
+    // Crossings lost by taking the edges off, and won by adding them.
+    std::int64_t take_off(const std::vector<VertexPair>& edges,
+                          const std::vector<VertexPair>& unchanged) {
+        std::int64_t lost = 0;
+        for_each_seen(edges, unchanged, [&](const VertexPair& e) {
             seen_->erase(e);
-            change -= seen_->crossings(e);
-        }
-        for (const VertexPair& e : after) {
-            if (skip(e)) continue;
-            change += seen_->crossings(e);
+            lost += seen_->crossings(e);
+        });
+        return lost;
+    }
+    std::int64_t add(const std::vector<VertexPair>& edges,
+                     const std::vector<VertexPair>& unchanged) {
+        std::int64_t won = 0;
+        for_each_seen(edges, unchanged, [&](const VertexPair& e) {
+            won += seen_->crossings(e);
             seen_->insert(e);
-        }
-        return change;
+        });
+        return won;
     }
 
     bool gains(const std::vector<VertexPair>& before, const std::vector<VertexPair>& after) {
         std::vector<VertexPair> both;
         std::set_intersection(before.begin(), before.end(), after.begin(), after.end(),
                               std::back_inserter(both));
-        const std::int64_t change = replace_seen(before, after, both);
-        if (change < 0 || (change == 0 && after.size() < before.size())) {
-            result_.crossings_after += change;
-            return true;
+        const bool fewer = after.size() < before.size();
+        const std::int64_t lost = take_off(before, both);
+        if (lost > 0 || fewer) {
+            const std::int64_t change = add(after, both) - lost;
+            if (change < 0 || (change == 0 && fewer)) {
+                result_.crossings_after += change;
+                return true;
+            }
+            for_each_seen(after, both, [&](const VertexPair& e) { seen_->erase(e); });
         }
-        replace_seen(after, before, both);
+        for_each_seen(before, both, [&](const VertexPair& e) { seen_->insert(e); });
         return false;
     }
 

@@ -23,10 +23,11 @@ class PointTree {
     template <class MayHold, class Hit>
     int find(const MayHold& may_hold, const Hit& hit) const {
         if (nodes_.empty()) return -1;
-        std::vector<int> stack{0};
-        while (!stack.empty()) {
-            const Node& node = nodes_[static_cast<std::size_t>(stack.back())];
-            stack.pop_back();
+        int stack[2 * 64];  // two for each level
+        int top = 0;
+        stack[top++] = 0;
+        while (top > 0) {
+            const Node& node = nodes_[static_cast<std::size_t>(stack[--top])];
             if (node.live == 0 || !may_hold(node.box)) continue;
             if (node.right < 0) {
                 for (int i = node.begin; i < node.end; ++i) {
@@ -34,8 +35,8 @@ class PointTree {
                     if (id >= 0 && hit(id)) return id;
                 }
             } else {
-                stack.push_back(node.right);
-                stack.push_back(node.left);
+                stack[top++] = node.right;
+                stack[top++] = node.left;
             }
         }
         return -1;
