@@ -285,8 +285,18 @@ def limit_cells(
     """
     solid = Solid(cells.points, np.zeros((0, 3), np.int32))
     return _call(
-        "limit_cells", solid, None, cells.points, cells.facet_offsets, cells.facet_vertices,
-        cells.facet_source, cells.cell_offsets, cells.cell_solid, max_cells, max_vertices, progress,
+        "limit_cells",
+        solid,
+        None,
+        cells.points,
+        cells.facet_offsets,
+        cells.facet_vertices,
+        cells.facet_source,
+        cells.cell_offsets,
+        cells.cell_solid,
+        max_cells,
+        max_vertices,
+        progress,
     )
 
 
