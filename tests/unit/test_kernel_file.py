@@ -5,7 +5,9 @@ from __future__ import annotations
 
 import importlib.machinery
 import shutil
+import subprocess
 import sys
+import textwrap
 from pathlib import Path
 from types import ModuleType
 
@@ -40,14 +42,33 @@ def test_places_in_their_order(kernel: Path, tmp_path: Path) -> None:
     assert kernel_file.candidates([packages]) == [place / NAME for place in places]
 
 
+def in_another_process(code: str, *places: Path) -> None:
+    """Run it there: in one process, two copies of a module raise each other's exceptions."""
+    head = """
+import sys
+from pathlib import Path
+from freecad_tetra import __version__, kernel_file
+kernel_file.ROOT, *places = map(Path, sys.argv[1:])
+"""
+    arguments = map(str, [places[0] / "checkout", *places])
+    done = subprocess.run(
+        [sys.executable, "-c", head + textwrap.dedent(code), *arguments],
+        capture_output=True, text=True,
+    )  # fmt: skip
+    assert done.returncode == 0, done.stderr
+
+
 def test_a_wheel_among_the_packages_is_brought_in(kernel: Path, tmp_path: Path) -> None:
-    path = list(sys.path)
     shutil.copy(kernel, tmp_path / NAME)
-    module = kernel_file.bring_in([tmp_path])
-    assert module is not None and module.__file__ == str(tmp_path / NAME)
-    assert kernel_file.version_of(module) == __version__
-    assert sys.modules[kernel_file.MODULE] is module
-    assert sys.path == path
+    code = f"""
+        path = list(sys.path)
+        module = kernel_file.bring_in(places)
+        assert module.__file__ == str(places[0] / "{NAME}"), module.__file__
+        assert kernel_file.version_of(module) == __version__
+        assert sys.modules[kernel_file.MODULE] is module
+        assert sys.path == path
+        """
+    in_another_process(code, tmp_path)
 
 
 def test_what_does_not_load_is_passed_by(kernel: Path, tmp_path: Path) -> None:
@@ -56,9 +77,12 @@ def test_what_does_not_load_is_passed_by(kernel: Path, tmp_path: Path) -> None:
         place.mkdir()
     (broken / NAME).write_bytes(b"no library")
     shutil.copy(kernel, good / NAME)
-    assert kernel_file.load(broken / NAME) is None
-    module = kernel_file.bring_in([broken, good])
-    assert module is not None and module.__file__ == str(good / NAME)
+    code = f"""
+        assert kernel_file.load(places[0] / "{NAME}") is None
+        module = kernel_file.bring_in(places)
+        assert module.__file__ == str(places[1] / "{NAME}"), module.__file__
+        """
+    in_another_process(code, broken, good)
 
 
 def test_another_version_is_the_last_resort(

@@ -4,11 +4,14 @@
 from __future__ import annotations
 
 import re
+import sys
 from collections.abc import Iterator
 from pathlib import Path
 
 import numpy as np
 import pytest
+
+sys.path.insert(0, str(Path(__file__).parents[1] / "tools"))
 from browser import Browser, chromium
 
 from freecad_tetra import ConvexCells, TetMesh

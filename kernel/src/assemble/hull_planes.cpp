@@ -70,7 +70,14 @@ class Reducer {
         for (const Vec3d& p : points)
             for (std::size_t k = 0; k < 3; ++k)
                 centre_[k] += p[k] / static_cast<double>(points.size());
-        for (const Vec3d& p : points) size_ = std::max(size_, norm(minus(p, centre_)));
+        low_ = high_ = centre_;
+        for (const Vec3d& p : points) {
+            size_ = std::max(size_, norm(minus(p, centre_)));
+            for (std::size_t k = 0; k < 3; ++k) {
+                low_[k] = std::min(low_[k], p[k]);
+                high_[k] = std::max(high_[k], p[k]);
+            }
+        }
         for (double angle = kSameDirection;; angle *= 2) {
             std::vector<Plane> found;
             for (const Vec3d& n : directions(points, triangles, angle))
@@ -87,8 +94,17 @@ class Reducer {
     }
 
     // The corners of what is left of the polytope, few enough; nothing when it cannot be done.
+    // The last planes are left out blindly: the box may stray less.
     std::optional<std::vector<Vec3d>> run(int most) {
         if (planes_.empty()) return std::nullopt;
+        std::optional<std::vector<Vec3d>> found = reduced(most);
+        std::vector<Vec3d> box = corners_of_box();
+        if (!found || strays(box) < strays(*found)) return box;
+        return found;
+    }
+
+  private:
+    std::optional<std::vector<Vec3d>> reduced(int most) {
         kept_ = all();
         costs_.assign(planes_.size(), -1);
         for (;;) {
@@ -99,8 +115,7 @@ class Reducer {
         }
     }
 
-  private:
-    Vec3d centre_{};
+    Vec3d centre_{}, low_{}, high_{};
     double size_ = 0;
     std::vector<Plane> start_, planes_;
     std::vector<int> kept_;
@@ -176,6 +191,22 @@ class Reducer {
             if (std::find(t.begin(), t.end(), cheapest) != t.end())
                 for (const int i : t) costs_[at(i)] = -1;
         std::erase(kept_, cheapest);
+    }
+
+    std::vector<Vec3d> corners_of_box() const {
+        std::vector<Vec3d> box;
+        for (const double x : {low_[0], high_[0]})
+            for (const double y : {low_[1], high_[1]})
+                for (const double z : {low_[2], high_[2]}) box.push_back({x, y, z});
+        return box;
+    }
+
+    // How far points lie beyond the planes of the start.
+    double strays(const std::vector<Vec3d>& points) const {
+        double most = 0;
+        for (const Vec3d& p : points)
+            for (const Plane& plane : start_) most = std::max(most, beyond(plane, p));
+        return most;
     }
 
     // How far the corners that appear without plane i lie beyond the planes of the start.
