@@ -15,8 +15,26 @@ from freecad_tetra.workbench.selection import TETRAHEDRA
 
 MOST_FLATNESS = 8
 MOST_PIECES = 10_000_000
+MOST_TRIES = 100
 
 translate = FreeCAD.Qt.translate
+
+
+def _quantity_box() -> Any:
+    """Return FreeCAD's box for a number with a unit.
+
+    Qt may place a new widget where a deleted one was whose Python object still lives: PySide then
+    gives that dead object. As the new widget stays, the next one is elsewhere.
+    """
+    loader = FreeCADGui.UiLoader()
+    for _ in range(MOST_TRIES):
+        box = loader.createWidget("Gui::QuantitySpinBox")
+        try:
+            box.objectName()
+        except RuntimeError:
+            continue
+        return box
+    raise RuntimeError("FreeCAD gives no box for quantities; close panels and try again")
 
 
 class Choices:
@@ -41,6 +59,7 @@ class Choices:
         self._form = self._widgets.QFormLayout(self.widget)
         self._form.setContentsMargins(0, 0, 0, 0)
         self._read: dict[str, Any] = {}
+        self._fields: dict[str, Any] = {}
         start = {"Flatness": CONVEX_CELLS["Flatness"].value, **preferences.choices(), **given}
         if kind == TETRAHEDRA:
             self._direction(str(start["Direction"]))
@@ -61,8 +80,12 @@ class Choices:
     def on_change(self, tell: Callable[[], None]) -> None:
         """Call `tell` whenever the user has changed how the solid is tessellated."""
         for name in ("LinearDeflection", "AngularDeflection"):
-            line = self.field(name).findChild(self._widgets.QLineEdit)
-            line.textChanged.connect(lambda text: tell())
+            box = self.field(name)
+            line = box.findChild(self._widgets.QLineEdit)
+            if line is None:  # its wrapper is that of another, deleted widget
+                box.editingFinished.connect(tell)
+            else:
+                line.textChanged.connect(lambda text: tell())
 
     def enable(self, on: bool) -> None:
         """Let the user change the choices, or not while the work goes on."""
@@ -70,9 +93,10 @@ class Choices:
 
     def field(self, name: str) -> Any:
         """Return the widget of a property."""
-        return self.widget.findChild(self._widgets.QWidget, name)
+        return self._fields[name]
 
     def _add(self, name: str, title: str, widget: Any) -> None:
+        self._fields[name] = widget
         widget.setObjectName(name)
         self._form.addRow(title, widget)
 
@@ -103,7 +127,7 @@ class Choices:
         self._read["Direction"] = read
 
     def _quantity(self, name: str, title: str, unit: str, value: float) -> None:
-        box = FreeCADGui.UiLoader().createWidget("Gui::QuantitySpinBox")
+        box = _quantity_box()
         box.setProperty("unit", unit)
         box.setProperty("minimum", 0.0)
         box.setProperty("rawValue", value)
