@@ -17,6 +17,7 @@ struct Division {
     std::map<std::pair<int, int>, std::vector<int>> on_edge;  // from the lower end on
     std::map<Triangle, std::vector<Triangle>> faces;  // outward; with the points of their edges
 
+    bool any() const { return !on_edge.empty() || !faces.empty(); }
     bool touches(const Triangle& triangle) const;
     // What a triangle becomes: as `faces` says, else by the points on its edges alone, in a way
     // that depends on nothing but the ids.

@@ -13,6 +13,7 @@ namespace tetra {
 namespace {
 
 constexpr int kCoarsestBits = 20, kFinestBits = 26;
+constexpr std::size_t kMostRestarts = 8;
 
 std::size_t index(int i) { return static_cast<std::size_t>(i); }
 
@@ -57,6 +58,12 @@ class SolidMesher {
         for (int bits = lowest;;) {
             GridChoice choice = grid_for_solid(surface, bits, highest, failures);
             const int used = choice.solid.grid.bits;
+            if (used + 2 <= highest && !keeps_contacts(surface, choice.solid)) {
+                failures.push_back("grid of 2^" + std::to_string(used) +
+                                   ": too coarse for the triangles of a contact");
+                bits = used + 2;
+                continue;
+            }
             const auto give_up_or_refine = [&](const char* what) {
                 failures.push_back("grid of 2^" + std::to_string(used) + ": " + what);
                 if (used + 2 > highest) throw;
@@ -121,6 +128,40 @@ std::vector<int> solids_of(const TetInput& input) {
     return solids;
 }
 
+// Mostly the first order does. Points of a contact may lie so close to each other that the later
+// solid has no grid for them; then it goes first and the contact is of its making.
+TetResult mesh_in_some_order(const TetInput& input, const Imprint& imprint,
+                             const TetOptions& options, StageClock& clock, Progress& progress) {
+    std::vector<int> order = solids_of(input);
+    std::vector<std::string> restarts;
+    for (;;) {
+        Assembly assembly(imprint);
+        SolidMesher mesher(options, clock, progress);
+        std::size_t next = 0;
+        const auto give_up_or_restart = [&](const char* what) {
+            if (next == 0 || !imprint.any() || restarts.size() == kMostRestarts) throw;
+            restarts.push_back("solid " + std::to_string(order[next]) + " goes first: " + what);
+            std::rotate(order.begin(), order.begin() + static_cast<std::ptrdiff_t>(next),
+                        order.begin() + static_cast<std::ptrdiff_t>(next) + 1);
+        };
+        try {
+            for (; next < order.size(); ++next) mesher.add(order[next], assembly);
+            TetResult result = assembly.take(input.vertices.size());
+            std::vector<std::string>& repairs = result.report.solids.front().repairs;
+            repairs.insert(repairs.begin(), restarts.begin(), restarts.end());
+            result.report.snap.merged_points += mesher.snap.merged_points;
+            result.report.snap.dropped_triangles = mesher.snap.dropped_triangles;
+            result.report.snap.flipped_edges = mesher.snap.flipped_edges;
+            result.report.rejected_grids = std::move(mesher.rejected_grids);
+            return result;
+        } catch (const VerificationFailed& e) {
+            give_up_or_restart(e.what());
+        } catch (const InvalidSolid& e) {
+            give_up_or_restart(e.what());
+        }
+    }
+}
+
 }  // namespace
 
 TetResult tetrahedralize(const TetInput& input, const TetOptions& options, Progress& progress) {
@@ -130,14 +171,7 @@ TetResult tetrahedralize(const TetInput& input, const TetOptions& options, Progr
         const StageClock::Scope scope(clock, "contacts");
         return imprint_contacts(input, progress);
     };
-    Assembly assembly(imprinted());
-    SolidMesher mesher(options, clock, progress);
-    for (const int solid : solids_of(input)) mesher.add(solid, assembly);
-    TetResult result = assembly.take(input.vertices.size());
-    result.report.snap.merged_points += mesher.snap.merged_points;
-    result.report.snap.dropped_triangles = mesher.snap.dropped_triangles;
-    result.report.snap.flipped_edges = mesher.snap.flipped_edges;
-    result.report.rejected_grids = std::move(mesher.rejected_grids);
+    TetResult result = mesh_in_some_order(input, imprinted(), options, clock, progress);
     result.report.seconds = clock.seconds;
     result.report.quality = tet_quality(result.points, result.tets);
     return result;

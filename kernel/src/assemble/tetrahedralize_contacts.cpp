@@ -3,140 +3,45 @@
 #include "tetrahedralize_contacts.h"
 
 #include <algorithm>
+#include <numeric>
 #include <utility>
 
-#include "divide_tets.h"
 #include "tetra/errors.h"
-#include "vec3.h"
 
 namespace tetra {
 namespace {
 
-// The mesh of one solid on its way into the whole.
-class Joining {
-  public:
-    Joining(const TetResult& whole, const std::vector<int>& vertex_of_point,
-            const std::map<Vec3d, int>& known, const SolidSurface& surface, const SolidTets& part,
-            const GridSolid& grid)
-        : whole_(whole), known_(known), surface_(surface), part_(part), grid_(grid) {
-        points = whole.points;
-        point_source = whole.point_source;
-        for (std::size_t p = 0; p < vertex_of_point.size(); ++p)
-            if (vertex_of_point[p] >= 0) point_of_vertex_[vertex_of_point[p]] = static_cast<int>(p);
-    }
+template <class T>
+void append(std::vector<T>& list, const std::vector<T>& more) {
+    list.insert(list.end(), more.begin(), more.end());
+}
 
-    void run() {
-        for (std::size_t p = 0; p < part_.points.size(); ++p) id.push_back(point_of(p));
-        find_division();
-    }
+std::vector<std::size_t> order_by(const std::vector<int>& keys) {
+    std::vector<std::size_t> order(keys.size());
+    std::iota(order.begin(), order.end(), std::size_t{0});
+    std::stable_sort(order.begin(), order.end(),
+                     [&](std::size_t a, std::size_t b) { return keys[a] < keys[b]; });
+    return order;
+}
 
-    std::vector<Vec3d> points;
-    std::vector<int> point_source, id;
-    Division division;  // of the earlier meshes
-    int shared = 0, divided_at = 0;
+template <class T>
+std::vector<T> permuted(const std::vector<T>& list, const std::vector<std::size_t>& order) {
+    std::vector<T> result;
+    result.reserve(list.size());
+    for (const std::size_t i : order) result.push_back(list[i]);
+    return result;
+}
 
-  private:
-    int point_of(std::size_t p) {
-        const Vec3d& place = part_.points[p];
-        const int vertex = part_.point_source[p];
-        if (vertex >= 0) {
-            if (const auto at = point_of_vertex_.find(vertex); at != point_of_vertex_.end()) {
-                if (points[at->second] != place)
-                    throw VerificationFailed("a vertex of a contact can't be kept in its place");
-                ++shared;
-                return at->second;
-            }
-        }
-        if (const auto at = known_.find(place); at != known_.end()) {
-            ++shared;
-            if (point_source[at->second] < 0) point_source[at->second] = vertex;
-            return at->second;
-        }
-        points.push_back(place);
-        point_source.push_back(vertex);
-        return static_cast<int>(points.size()) - 1;
-    }
-
-    // Where the new mesh divides triangles that it took over.
-    void find_division() {
-        std::map<int, std::vector<Triangle>> parts;  // per earlier skin row, its way round
-        std::vector<char> done(part_.points.size(), 0);
-        for (std::size_t s = 0; s < part_.mesh.skin.size(); ++s) {
-            const int row = surface_.old_row[grid_.triangle_source[part_.mesh.skin_source[s]]];
-            if (row < 0) continue;
-            const Triangle& t = part_.mesh.skin[s];
-            parts[row].push_back({id[t[0]], id[t[2]], id[t[1]]});
-            for (const int p : t)
-                if (part_.point_source[p] < 0 && !std::exchange(done[p], 1)) note_point(p);
-        }
-        for (auto& [edge, list] : division.on_edge) {
-            const Vec3d& start = points[edge.first];
-            const auto distance = [&](int p) {
-                const Vec3d d = minus(points[p], start);
-                return dot(d, d);
-            };
-            std::sort(list.begin(), list.end(),
-                      [&](int p, int q) { return distance(p) < distance(q); });
-        }
-        for (auto& [row, list] : parts) {
-            if (list.size() == 1) continue;
-            Triangle key = whole_.skin[row];
-            std::sort(key.begin(), key.end());
-            division.faces[key] = std::move(list);
-        }
-    }
-
-    void note_point(int p) {
-        ++divided_at;
-        const Carrier& carrier = part_.mesh.carriers[p];
-        if (carrier.kind != CarrierKind::edge) return;
-        const int u = point_of_vertex_.at(grid_.point_source[carrier.first]),
-                  v = point_of_vertex_.at(grid_.point_source[carrier.second]);
-        division.on_edge[{std::min(u, v), std::max(u, v)}].push_back(id[p]);
-    }
-
-    const TetResult& whole_;
-    const std::map<Vec3d, int>& known_;
-    const SolidSurface& surface_;
-    const SolidTets& part_;
-    const GridSolid& grid_;
-    std::map<int, int> point_of_vertex_;
-};
-
-// The tetrahedra and the skin of the earlier solids, divided.
-void divide_mesh(const Division& division, std::vector<Vec3d>& points, TetResult& mesh) {
-    std::vector<std::array<int, 4>> tets;
-    std::vector<int> solid;
-    for (std::size_t t = 0; t < mesh.tets.size(); ++t) {
-        const std::array<int, 4>& v = mesh.tets[t];
-        const bool touched =
-            division.touches({v[1], v[2], v[3]}) || division.touches({v[0], v[3], v[2]}) ||
-            division.touches({v[0], v[1], v[3]}) || division.touches({v[0], v[2], v[1]});
-        const std::vector<std::array<int, 4>> parts =
-            touched ? divided(v, division, points) : std::vector{v};
-        tets.insert(tets.end(), parts.begin(), parts.end());
-        solid.insert(solid.end(), parts.size(), mesh.tet_solid[t]);
-    }
-    std::vector<Triangle> skin;
-    std::vector<int> source;
-    for (std::size_t s = 0; s < mesh.skin.size(); ++s)
-        for (const Triangle& part : division.parts_of(mesh.skin[s])) {
-            skin.push_back(part);
-            source.push_back(mesh.skin_source[s]);
-        }
-    mesh.tets = std::move(tets);
-    mesh.tet_solid = std::move(solid);
-    mesh.skin = std::move(skin);
-    mesh.skin_source = std::move(source);
+Triangle ascending(Triangle t) {
+    std::sort(t.begin(), t.end());
+    return t;
 }
 
 // Per skin triangle the one of another solid with the same corners, or -1.
 std::vector<int> skin_twins(const std::vector<Triangle>& skin) {
     std::vector<std::pair<Triangle, int>> sorted;
     for (std::size_t s = 0; s < skin.size(); ++s) {
-        Triangle t = skin[s];
-        std::sort(t.begin(), t.end());
-        sorted.emplace_back(t, static_cast<int>(s));
+        sorted.emplace_back(ascending(skin[s]), static_cast<int>(s));
     }
     std::sort(sorted.begin(), sorted.end());
     std::vector<int> twin(skin.size(), -1);
@@ -149,6 +54,19 @@ std::vector<int> skin_twins(const std::vector<Triangle>& skin) {
 }
 
 }  // namespace
+
+bool keeps_contacts(const SolidSurface& surface, const GridSolid& grid) {
+    auto left = std::count(surface.contact.begin(), surface.contact.end(), 1);
+    for (std::size_t t = 0; t < grid.triangles.size(); ++t) {
+        const int source = grid.triangle_source[t];
+        if (!surface.contact[source]) continue;
+        --left;
+        for (std::size_t k = 0; k < 3; ++k)
+            if (grid.point_source[grid.triangles[t][k]] != surface.input.triangles[source][k])
+                return false;
+    }
+    return left == 0;
+}
 
 Assembly::Assembly(Imprint imprint) : imprint_(std::move(imprint)) {
     std::vector<int>& face = imprint_.surface.face;
@@ -179,84 +97,143 @@ SolidSurface Assembly::surface_of(int solid) const {
         if (!all.face.empty()) out.input.face.push_back(face);
         out.origin.push_back(origin);
         out.old_row.push_back(row);
+        out.contact.push_back(imprint_.contact[origin] >= 0);
     };
+    const Division division = divided_edges();
     for (int t = 0; t < static_cast<int>(all.triangles.size()); ++t) {
         if (!all.solid.empty() && all.solid[t] != solid) continue;
         const int other = imprint_.contact[t];
-        if (other < 0)
-            add(all.triangles[t], t, -1, all.face.empty() ? 0 : all.face[t]);
-        else if (!finished_.contains(all.solid[other]))
-            add(all.triangles[t], t, -1,
-                patch_.at({all.face[t], all.solid[other], all.face[other]}));
+        if (other >= 0 && finished_.contains(all.solid[other])) continue;
+        const int face = other >= 0 ? patch_.at({all.face[t], all.solid[other], all.face[other]})
+                                    : (all.face.empty() ? 0 : all.face[t]);
+        for (const Triangle& part : division.parts_of(all.triangles[t])) add(part, t, -1, face);
     }
     int own_face = next_face_;
-    for (std::size_t s = 0; s < result_.skin.size(); ++s) {
-        const int source = result_.skin_source[s];
+    for (std::size_t s = 0; s < meshes_.parts.skin.size(); ++s) {
+        const int source = meshes_.parts.skin_source[s];
         if (twin_solid(source) != solid) continue;
-        const Triangle& t = result_.skin[s];
-        add({vertex_of_point_[t[0]], vertex_of_point_[t[2]], vertex_of_point_[t[1]]},
+        const Triangle& t = meshes_.parts.skin[s];
+        add({meshes_.vertex_of_point[t[0]], meshes_.vertex_of_point[t[2]],
+             meshes_.vertex_of_point[t[1]]},
             imprint_.contact[source], static_cast<int>(s), own_face++);
     }
     return out;
 }
 
 void Assembly::add(const SolidSurface& surface, SolidTets part, const GridSolid& grid) {
-    Joining joining(result_, vertex_of_point_, known_, surface, part, grid);
-    joining.run();
-    if (!joining.division.on_edge.empty() || !joining.division.faces.empty())
-        divide_mesh(joining.division, joining.points, result_);
-    const auto placed = [&](auto ids) {
-        for (int& p : ids) p = joining.id[p];
-        return ids;
-    };
-    for (const auto& tet : part.mesh.tets) result_.tets.push_back(placed(tet));
-    result_.tet_solid.insert(result_.tet_solid.end(), part.mesh.tet_solid.begin(),
-                             part.mesh.tet_solid.end());
-    for (std::size_t s = 0; s < part.mesh.skin.size(); ++s) {
-        result_.skin.push_back(placed(part.mesh.skin[s]));
-        result_.skin_source.push_back(
-            surface.origin[grid.triangle_source[part.mesh.skin_source[s]]]);
+    Joined joined = join(meshes_, surface, part, grid);
+    MeshParts& all = meshes_.parts;
+    if (joined.division.any()) {
+        MeshParts earlier = divided_mesh(all, joined.division, joined.points);
+        joined.fresh = divided_mesh(joined.fresh, joined.division, joined.points);
+        expect_twins(part.report.solid, earlier, joined.fresh);
+        all = std::move(earlier);
+    } else {
+        expect_twins(part.report.solid, all, joined.fresh);
     }
-    result_.points = std::move(joining.points);
-    result_.point_source = std::move(joining.point_source);
-    result_.point_source.resize(result_.points.size(), -1);
-    result_.report.shared_points += joining.shared;
-    result_.report.contact_points += joining.divided_at;
-    finished_.insert(part.report.solid);
-    result_.report.solids.push_back(std::move(part.report));
+    append(all.tets, joined.fresh.tets);
+    append(all.tet_solid, joined.fresh.tet_solid);
+    append(all.skin, joined.fresh.skin);
+    append(all.skin_source, joined.fresh.skin_source);
     if (!imprint_.surface.solid.empty())
-        for (const int p : joining.id) known_.try_emplace(result_.points[p], p);
-    // Points on contacts are vertices for the solids to come.
-    vertex_of_point_.resize(result_.points.size(), -1);
+        for (std::size_t p = meshes_.points.size(); p < joined.points.size(); ++p)
+            meshes_.known.try_emplace(joined.points[p], static_cast<int>(p));
+    meshes_.points = std::move(joined.points);
+    meshes_.point_source = std::move(joined.point_source);
+    meshes_.point_source.resize(meshes_.points.size(), -1);
+    meshes_.chains = std::move(joined.chains);
+    report_.shared_points += joined.shared;
+    report_.contact_points += static_cast<int>(joined.put.size());
+    finished_.insert(part.report.solid);
+    report_.solids.push_back(std::move(part.report));
+    name_points_of_contacts();
+}
+
+void Assembly::expect_twins(int solid, const MeshParts& earlier, const MeshParts& fresh) const {
+    std::vector<Triangle> there, here;
+    for (std::size_t s = 0; s < earlier.skin.size(); ++s)
+        if (twin_solid(earlier.skin_source[s]) == solid)
+            there.push_back(ascending(earlier.skin[s]));
+    for (std::size_t s = 0; s < fresh.skin.size(); ++s)
+        if (finished_.contains(twin_solid(fresh.skin_source[s])))
+            here.push_back(ascending(fresh.skin[s]));
+    std::sort(there.begin(), there.end());
+    std::sort(here.begin(), here.end());
+    if (there != here)
+        throw VerificationFailed("a solid can't keep the triangles of a contact as they are");
+}
+
+// They are vertices for the solids to come.
+void Assembly::name_points_of_contacts() {
+    meshes_.vertex_of_point.resize(meshes_.points.size(), -1);
     std::vector<Vec3d>& vertices = imprint_.surface.vertices;
-    for (std::size_t s = 0; s < result_.skin.size(); ++s) {
-        if (imprint_.contact[result_.skin_source[s]] < 0) continue;
-        for (const int p : result_.skin[s]) {
-            int& vertex = vertex_of_point_[p];
+    for (std::size_t s = 0; s < meshes_.parts.skin.size(); ++s) {
+        if (imprint_.contact[meshes_.parts.skin_source[s]] < 0) continue;
+        for (const int p : meshes_.parts.skin[s]) {
+            int& vertex = meshes_.vertex_of_point[p];
             if (vertex >= 0) continue;
-            vertex = result_.point_source[p];
+            vertex = meshes_.point_source[p];
             if (vertex < 0) {
                 vertex = static_cast<int>(vertices.size());
                 vertices.emplace_back();
             }
-            vertices[vertex] = result_.points[p];
+            vertices[vertex] = meshes_.points[p];
         }
     }
 }
 
+// Points of finished meshes on edges, as vertices.
+Division Assembly::divided_edges() const {
+    Division division;
+    for (const auto& [edge, chain] : meshes_.chains.chains()) {
+        std::vector<int> vertices;
+        for (const int p : chain) vertices.push_back(meshes_.vertex_of_point[p]);
+        if (vertices.front() > vertices.back()) std::reverse(vertices.begin(), vertices.end());
+        division.on_edge[{vertices.front(), vertices.back()}] = {vertices.begin() + 1,
+                                                                 vertices.end() - 1};
+    }
+    return division;
+}
+
+// Solids that had to go first go back to their places.
+void Assembly::in_order_of_solids() {
+    MeshParts& all = meshes_.parts;
+    const auto tets = order_by(all.tet_solid);
+    std::vector<int> solid_of_row, solid_of_report;
+    for (const int t : all.skin_source)
+        solid_of_row.push_back(imprint_.surface.solid.empty() ? 0 : imprint_.surface.solid[t]);
+    for (const SolidReport& r : report_.solids) solid_of_report.push_back(r.solid);
+    const auto rows = order_by(solid_of_row);
+    const auto reports = order_by(solid_of_report);
+    all.tets = permuted(all.tets, tets);
+    all.tet_solid = permuted(all.tet_solid, tets);
+    all.skin = permuted(all.skin, rows);
+    all.skin_source = permuted(all.skin_source, rows);
+    report_.solids = permuted(report_.solids, reports);
+}
+
 TetResult Assembly::take(std::size_t vertices_of_caller) {
-    result_.skin_twin = skin_twins(result_.skin);
+    in_order_of_solids();
+    TetResult result;
+    result.skin_twin = skin_twins(meshes_.parts.skin);
     int open = 0;
-    for (std::size_t s = 0; s < result_.skin.size(); ++s)
-        open += twin_solid(result_.skin_source[s]) >= 0 && result_.skin_twin[s] < 0;
+    for (std::size_t s = 0; s < result.skin_twin.size(); ++s)
+        open += twin_solid(meshes_.parts.skin_source[s]) >= 0 && result.skin_twin[s] < 0;
     if (open > 0)
         throw VerificationFailed("solids in contact have different triangles on " +
                                  std::to_string(open) + " places of their common faces");
-    for (int& t : result_.skin_source) t = imprint_.source[t];
-    for (int& v : result_.point_source)
+    result.points = std::move(meshes_.points);
+    result.point_source = std::move(meshes_.point_source);
+    for (int& v : result.point_source)
         if (v >= static_cast<int>(vertices_of_caller)) v = -1;
-    result_.report.snap.merged_points += imprint_.merged_points;
-    return std::move(result_);
+    result.tets = std::move(meshes_.parts.tets);
+    result.tet_solid = std::move(meshes_.parts.tet_solid);
+    result.skin = std::move(meshes_.parts.skin);
+    result.skin_source = std::move(meshes_.parts.skin_source);
+    for (int& t : result.skin_source) t = imprint_.source[t];
+    result.report = std::move(report_);
+    result.report.snap.merged_points += imprint_.merged_points;
+    return result;
 }
 
 }  // namespace tetra

@@ -6,22 +6,19 @@
 #include <map>
 #include <set>
 
+#include "join_meshes.h"
 #include "tetra/assemble/imprint_contacts.h"
-#include "tetrahedralize_solid.h"
 
 namespace tetra {
 
-// What one solid is meshed from.
-struct SolidSurface {
-    TetInput input;            // vertices of the whole assembly
-    std::vector<int> origin;   // per triangle: of the imprinted surface
-    std::vector<int> old_row;  // the skin row of an earlier solid on its other side, or -1
-};
+// Whether all triangles of contacts have their corners on the grid, none dropped or exchanged.
+bool keeps_contacts(const SolidSurface& surface, const GridSolid& grid);
 
 // Solids are added one after the other. The contact triangles of a solid with earlier ones are
 // those of their meshes, each a face of its own, so that no stage exchanges its edges; on contacts
 // with later ones it is free. A Steiner point that it still needs on a contact is put into the
-// earlier meshes: their tetrahedra there are divided, exactly alike on both sides.
+// earlier meshes: their tetrahedra there are divided, exactly alike on both sides. A point on an
+// edge of a contact goes into all meshes with this edge, the triangles of later solids included.
 class Assembly {
   public:
     explicit Assembly(Imprint imprint);
@@ -38,14 +35,17 @@ class Assembly {
 
   private:
     int twin_solid(int triangle) const;
+    Division divided_edges() const;
+    void expect_twins(int solid, const MeshParts& earlier, const MeshParts& fresh) const;
+    void name_points_of_contacts();
+    void in_order_of_solids();
 
     Imprint imprint_;
     std::map<std::array<int, 3>, int> patch_;  // (face, solid and face beyond) -> face of contact
     int next_face_ = 0;
     std::set<int> finished_;
-    std::vector<int> vertex_of_point_;  // -1 away from contacts
-    std::map<Vec3d, int> known_;        // points of finished solids by place
-    TetResult result_;
+    FinishedMeshes meshes_;
+    TetReport report_;
 };
 
 }  // namespace tetra
