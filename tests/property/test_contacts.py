@@ -3,9 +3,11 @@
 
 from __future__ import annotations
 
+from itertools import permutations
+
 import numpy as np
 import pytest
-from assemblies import assembly, box, contact_area, shared_voxels
+from assemblies import around_an_edge, assembly, box, contact_area, shared_voxels
 
 from freecad_tetra import kernel
 
@@ -69,15 +71,43 @@ def test_random_assemblies(method, slanted):
         assert contact_area(mesh) == pytest.approx(area, rel=1e-9)
 
 
+NOTHING_REMOVED = {"compact": "off", "pull_off": "off"}
+
+
 @pytest.mark.parametrize("seed", [38, 41, 75, 80, 109])
-def test_steiner_points_of_a_contact_go_into_both_meshes(seed):
-    """Without compaction the later solid needs a point on a contact with a finished one."""
+@pytest.mark.parametrize("direction", ["auto", "x", "y", "z"])
+def test_steiner_points_of_a_contact_go_into_both_meshes(seed, direction):
+    """Without compaction each solid needs points on contacts that the other doesn't."""
     surface, area = shared_voxels(seed, slanted=True)
-    mesh = kernel.tetrahedralize(surface, {"compact": "off", "pull_off": "off"})
+    mesh = kernel.tetrahedralize(surface, NOTHING_REMOVED | {"direction": direction})
     assert contact_area(mesh) == pytest.approx(area, rel=1e-9)
     assert mesh.report.repairs["contact_points"] > 0
     assert (mesh.volumes() > 0).all()
     assert mesh.report.volume_error < 1e-14
+
+
+@pytest.mark.parametrize("numbers", list(permutations(range(3))))
+def test_steiner_points_of_an_edge_go_round_it(numbers):
+    """The first and the last solid share only this edge; the one between has to fit both."""
+    put = 0
+    for seed in range(3):
+        surface, area = around_an_edge(seed, numbers)
+        mesh = kernel.tetrahedralize(surface, NOTHING_REMOVED | {"direction": "x"})
+        assert contact_area(mesh) == pytest.approx(area, rel=1e-9)
+        assert mesh.report.volume_error < 1e-14
+        put += mesh.report.repairs["contact_points"]
+    assert put > 0
+
+
+@pytest.mark.parametrize("seed", [99, 112])
+def test_a_contact_too_fine_for_the_later_solid_is_made_by_it(seed):
+    """Steiner points of the first solid lie closer to each other than the finest grid."""
+    surface, area = shared_voxels(seed, slanted=True)
+    mesh = kernel.tetrahedralize(surface, NOTHING_REMOVED | {"direction": "x"})
+    assert contact_area(mesh) == pytest.approx(area, rel=1e-9)
+    assert (np.diff(mesh.tet_solid) >= 0).all(), "in the order of the solids all the same"
+    attempts = [a for solid in mesh.report.details["solids"] for a in solid["failed_attempts"]]
+    assert any("goes first" in attempt for attempt in attempts)
 
 
 def test_repetition_gives_equal_bytes():

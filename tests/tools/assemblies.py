@@ -55,6 +55,32 @@ def shared_voxels(seed: int, slanted: bool = False) -> tuple[Solid, float] | Non
     rng = random.Random(seed)
     n, labels = rng.choice([2, 3]), rng.choice([2, 3, 4])
     owner = {i: rng.randrange(labels + 1) - 1 for i in np.ndindex(n, n, n)}
+    return _of_voxels(owner, rng, slanted)
+
+
+def around_an_edge(seed: int, numbers: tuple[int, int, int]) -> tuple[Solid, float]:
+    """Three quarters round an edge in the middle, with gaps away from it, and their contact area.
+
+    The first and the last solid of `numbers` share only the edge; the one between touches both.
+    """
+    rng = random.Random(seed)
+    quarter = {(0, 0): numbers[0], (1, 0): numbers[1], (1, 1): numbers[2]}
+    owner = {}
+    for x, y, z in np.ndindex(4, 4, 3):
+        kept = (x in (1, 2) and y in (1, 2)) or rng.random() < 0.6
+        owner[x, y, z] = quarter.get((x // 2, y // 2), -1) if kept else -1
+    found = _of_voxels(owner, rng, slanted=True)
+    assert found is not None
+    solid, area = found
+    order = np.argsort(solid.solid_ids, kind="stable")  # solids are meshed as triangles come
+    rows, ids = solid.triangles[order], solid.solid_ids[order]
+    return Solid(solid.vertices, rows, np.arange(len(rows)), (), "", ids), area
+
+
+def _of_voxels(
+    owner: dict[Any, int], rng: random.Random, slanted: bool
+) -> tuple[Solid, float] | None:
+    n = 1 + max(map(max, owner))
     steps = [np.cumsum([rng.random() + 0.1 for _ in range(n + 1)]) for _ in range(3)]
     matrix = np.array([[3, 1, -1], [-2, 4, 1], [1, -1, 5]]) / 4 if slanted else np.eye(3)
     number: dict[Any, int] = {}

@@ -104,7 +104,8 @@ struct TetResult {
 // Snap, pull-off, fence-off, emission, compaction, restoring and the kernel's own check, for each
 // solid; solids then share nodes at equal places. On failure other directions, no pull-off, other
 // grids and no compaction are tried, in this order. Where two solids touch in a plane, both sides
-// get the same triangles (imprint_contacts.h): each is in the skin twice, once for each solid.
+// get the same triangles (imprint_contacts.h): each is in the skin twice, once for each solid. A
+// solid that can't keep those of its neighbours is meshed before them.
 //
 // \throw InvalidSolid when the surface can't be put on a grid; VerificationFailed when every
 //        attempt failed; Cancelled.
