@@ -46,7 +46,8 @@ TARGETS = {
 
 OURS = """
 import json, sys, time
-from freecad_tetra import as_solid, tetrahedralize
+from freecad_tetra import as_solid, kernel, tetrahedralize
+kernel.load()
 solid, repeats = as_solid(sys.argv[1]), int(sys.argv[3])
 cpu, wall = time.process_time(), time.perf_counter()
 for _ in range(repeats):

@@ -11,6 +11,7 @@ import numpy.typing as npt
 from freecad_tetra.model import FloatArray, Solid
 
 _PARALLEL = 1e-6  # directions closer than this are one
+_MOST_FACES = 16  # the largest ones; small faces don't tell how a solid was made
 _FLAT = 1e-10  # share of squared area by which normals may leave their common plane
 
 
@@ -23,12 +24,13 @@ def candidates(surface: Solid, limit: int = 4) -> FloatArray:
     corners = surface.vertices[surface.triangles]
     normals = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
     groups = surface.face_ids if surface.face_names else _parallel_groups(normals)
+    _, group = np.unique(groups, return_inverse=True)
+    areas = np.bincount(group, np.linalg.norm(normals, axis=1))
     found: list[tuple[float, FloatArray]] = []
-    for group in np.unique(groups):
-        own = normals[groups == group]
-        direction = _direction(own)
+    for k in np.argsort(-areas, kind="stable")[:_MOST_FACES]:
+        direction = _direction(normals[group == k])
         if direction is not None:
-            _add(found, float(np.linalg.norm(own, axis=1).sum()), direction)
+            _add(found, float(areas[k]), direction)
     found = [f for f in found if np.abs(f[1]).max() < 1 - _PARALLEL**2]
     found.sort(key=lambda f: -f[0])
     return np.array([direction for _, direction in found[:limit]], np.float64).reshape(-1, 3)

@@ -208,6 +208,8 @@ class Report:
 
 def plain(value: Any) -> Any:
     """Turn numpy scalars, arrays, tuples and mappings into plain JSON types."""
+    if value is None or type(value) in (int, str, bool):
+        return value
     if isinstance(value, Mapping):
         return {str(k): plain(v) for k, v in value.items()}
     if isinstance(value, np.ndarray):
