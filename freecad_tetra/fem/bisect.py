@@ -55,6 +55,16 @@ def bisect(mesh: TetMesh, size: float, project: Project | None = None) -> TetMes
     return project_points(fine, project, new)[0]
 
 
+def halve(mesh: TetMesh, chosen: LongArray) -> TetMesh:
+    """Return the mesh with the edges `chosen` divided, rows of `second_order.tet_edges`.
+
+    No tetrahedron may have two of them. New points follow the old ones, in the order of `chosen`.
+    """
+    work = _Work(mesh)
+    work.halve(*tet_edges(mesh.tets), chosen)
+    return work.mesh()
+
+
 class _Work:
     """The growing arrays of a mesh."""
 
@@ -78,20 +88,24 @@ class _Work:
         longest = of_tets[np.arange(len(of_tets)), rank[of_tets].argmax(axis=1)]
         around = np.bincount(of_tets.reshape(-1), minlength=len(ends))
         terminal = np.bincount(longest, minlength=len(ends)) == around
-        chosen = np.flatnonzero(terminal & (length > size))
+        self.halve(ends, of_tets, np.flatnonzero(terminal & (length > size)))
+        return True
+
+    def halve(self, ends: LongArray, of_tets: LongArray, chosen: LongArray) -> None:
+        """Divide edges, of which no tetrahedron has two."""
         middle = np.full(len(ends), -1, np.int64)
         middle[chosen] = len(self.points) + np.arange(len(chosen))
         self._divide_skin(ends, middle)
-        self._divide_tets(of_tets, longest, middle)
+        self._divide_tets(of_tets, middle)
         halves = (self.points[ends[chosen, 0]] + self.points[ends[chosen, 1]]) / 2
         self.points = np.concatenate([self.points, halves])
-        return True
 
-    def _divide_tets(self, of_tets: LongArray, longest: LongArray, middle: LongArray) -> None:
-        rows = np.flatnonzero(middle[longest] >= 0)
-        local = np.argmax(of_tets[rows] == longest[rows, None], axis=1)
+    def _divide_tets(self, of_tets: LongArray, middle: LongArray) -> None:
+        split = middle[of_tets] >= 0
+        rows = np.flatnonzero(split.any(axis=1))
+        local = np.argmax(split[rows], axis=1)
         pairs = np.array(TET_EDGES)[local]
-        self.tets, twice = _halved(self.tets, rows, pairs, middle[longest[rows]])
+        self.tets, twice = _halved(self.tets, rows, pairs, middle[of_tets[rows, local]])
         self._solid = self._solid[twice]
 
     def _divide_skin(self, ends: LongArray, middle: LongArray) -> None:

@@ -19,9 +19,11 @@ from freecad_tetra.fem import quality as measuring
 from freecad_tetra.fem import remesh as remeshing
 from freecad_tetra.fem.bisect import bisect
 from freecad_tetra.fem.refine import refine
+from freecad_tetra.fem.room import make_room
 from freecad_tetra.fem.second_order import Curving, second_order
 from freecad_tetra.model import Tet10Mesh, TetMesh
 
+MOST_ROUNDS = 4  # of making room below the curved boundary
 SIZE_SHARE = 1 / 8  # of the diagonal: the longest edge when none is asked for
 
 Told = Callable[[str, float], "bool | None"] | None
@@ -100,13 +102,26 @@ def prepare(
     curving = Curving()
     if wanted.order == 2:
         _tell(told, "second_order", 0.0)
-        made, curving = second_order(mesh, project)
+        made, curving, done["rounds_for_room"] = _curved(mesh, project)
         done["curved_middles"] = curving.curved
         done["straightened_middles"] = curving.straightened
         done["unprojected_middles"] = curving.unprojected
         done["straightened_faces"] = [_name(mesh, f) for f in curving.faces]
     _tell(told, "quality", 0.0)
     return _reported(made, done, perf_counter() - start)
+
+
+def _curved(mesh: TetMesh, project: projecting.Project | None) -> tuple[Tet10Mesh, Curving, int]:
+    """Return the mesh of second order, divided inside where the curved boundary needs room."""
+    made, curving = second_order(mesh, project)
+    rounds = 0
+    while curving.straightened and rounds < MOST_ROUNDS:
+        mesh = make_room(mesh, curving.unbearing)
+        roomier, then = second_order(mesh, project)
+        if then.straightened >= curving.straightened:
+            break
+        made, curving, rounds = roomier, then, rounds + 1
+    return made, curving, rounds
 
 
 def _require_mmg(mesh: TetMesh, packages: Sequence[str | Path]) -> Path:

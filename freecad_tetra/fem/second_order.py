@@ -19,7 +19,7 @@ from freecad_tetra.model import FloatArray, LongArray, Tet10Mesh, TetMesh
 # Shares of its straight Jacobian that a curved element must keep. Two edges of an element that
 # follow a smooth rim meet there in almost a straight angle: near corners little must be enough.
 LEAST_INTEGRATED = 0.1  # at integration points
-LEAST_SHARE = 1e-3  # everywhere else
+LEAST_SHARE = 1e-4  # everywhere else
 _LONGEST_SHIFT = 0.5  # of the edge's length; a projection that goes farther found another place
 
 
@@ -37,12 +37,15 @@ class Curving:
         Have no near point on the CAD.
     faces : tuple of int
         B-rep faces with middles that were put back.
+    unbearing : tuple of int
+        Tetrahedra that could not bear all their middles on the CAD, worst first.
     """
 
     curved: int = 0
     straightened: int = 0
     unprojected: int = 0
     faces: tuple[int, ...] = ()
+    unbearing: tuple[int, ...] = ()
 
 
 def second_order(mesh: TetMesh, project: Project | None = None) -> tuple[Tet10Mesh, Curving]:
@@ -100,27 +103,33 @@ def _curve(
     far = shift > _LONGEST_SHIFT * length
     target[far] = straight[far]
     off = (target != straight).any(axis=1)
-    middles, back = _bearable(mesh.points, tets, straight, target)
+    middles, back, unbearing = _bearable(mesh.points, tets, straight, target)
     faces = [f for f, rows in wanted.items() if back[rows].any()]
     curving = Curving(
         curved=int(np.count_nonzero(off & ~back)),
         straightened=int(np.count_nonzero(back)),
         unprojected=int(np.count_nonzero(far)),
         faces=tuple(sorted({i for f in faces for i in f})),
+        unbearing=tuple(unbearing.tolist()),
     )
     return middles, curving
 
 
 def _bearable(
     points: FloatArray, tets: LongArray, straight: FloatArray, target: FloatArray
-) -> tuple[FloatArray, Any]:
-    """Put middles back to the chord until every element keeps its share of the Jacobian."""
+) -> tuple[FloatArray, Any, LongArray]:
+    """Put middles back to the chord until every element keeps its share of the Jacobian.
+
+    With the middles and which of them went back: the elements at fault in the beginning.
+    """
     base = len(points)
     nodes = np.concatenate([points, target])
     back = np.zeros(len(straight), bool)
     need = LEAST_SHARE * jacobian.straight_determinants(points[tets[:, :4]])
     bent = (target != straight).any(axis=1)
     check = np.flatnonzero(bent[tets[:, 4:] - base].any(axis=1))
+    share = _margin(nodes[tets[check]]) - need[check]
+    unbearing = check[np.argsort(share, kind="stable")[: np.count_nonzero(share < 0)]]
     while len(check):
         poor = check[_margin(nodes[tets[check]]) < need[check]]
         if not len(poor):
@@ -130,7 +139,7 @@ def _bearable(
         nodes[base + culprits] = straight[culprits]
         check = np.flatnonzero(np.isin(tets[:, 4:] - base, culprits).any(axis=1))
         check = np.union1d(check, poor)
-    return nodes[base:], back
+    return nodes[base:], back, unbearing
 
 
 def _margin(corners: FloatArray) -> FloatArray:

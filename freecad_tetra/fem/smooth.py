@@ -62,6 +62,18 @@ def smooth(
     return replace(mesh, points=points), len(moved)
 
 
+def settle(mesh: TetMesh, corners: Any) -> TetMesh:
+    """Move the corners given, one after the other, where their stars are best, O(k).
+
+    They have to lie inside.
+    """
+    points = np.array(mesh.points)
+    around = _Stars(mesh.tets, len(points))
+    for v in corners:
+        _move(points, around.star(v), int(v), None, None)
+    return replace(mesh, points=points)
+
+
 class _Stars:
     """The tetrahedra around each point."""
 

@@ -165,12 +165,15 @@ class Tube(InAnalysis):
         radial = s[:, 0] * x**2 + s[:, 1] * y**2 + 2 * s[:, 3] * x * y
         np.testing.assert_allclose(hoop, 10 * 500 / 300, rtol=0.03)
         self.assertAlmostEqual(radial.mean(), -10, delta=0.3)
+        np.testing.assert_allclose(radial, -10, atol=0.03 * 10 * 500 / 300)
         # The pressure on a quarter of the bore pushes with p r l each way.
         self.assertAlmostEqual(solution.reactions["HELDX"][0] / -1000, 1, delta=1e-3)
         self.assertAlmostEqual(solution.reactions["HELDY"][1] / -1000, 1, delta=1e-3)
 
     def test_is_within_3_percent_of_lame_after_refinement(self) -> None:
-        self.check(Refinement=1)
+        # Few wide facets, whose refinements follow the CAD: many narrow ones would stay narrow.
+        coarse = {"LinearDeflection": 5, "AngularDeflection": 30, "ElementSize": 4}
+        self.check(Refinement=1, **coarse)
 
     def test_with_quality(self) -> None:
         self.check(Quality=True)
