@@ -57,7 +57,7 @@ def study(order: int, times: int) -> list[dict[str, float]]:
     """Return elements, relative edge length and growth of each mesh, coarsest first."""
     shape = parts.quarter_tube()
     project = brep.projector(shape)
-    mesh = fem_mesh(shape, order=1, quality=True, size=9.0, chord=0.8)
+    mesh = fem_mesh(shape, order=1, quality=True, size=15.0, chord=1.5)
     rows = []
     for step in range(times + 1):
         made = second_order(mesh, project)[0] if order == 2 else mesh

@@ -56,28 +56,44 @@ def solve(analysis: Any, folder: str | Path | None = None, strict: bool = True) 
     ------
     LoadsLost, SolverFailed
     """
+    tools, rows = _written(analysis, folder, strict)
+    code = tools.ccx_run()
+    if code:
+        told = [line for line in tools.ccx_stdout.splitlines() if "ERROR" in line]
+        raise SolverFailed(
+            f"CalculiX ended with {code}: {' '.join(told[:3])}", f"see {tools.working_dir}"
+        )
+    tools.load_results()
+    results = [m for m in analysis.Group if m.isDerivedFrom("Fem::FemResultObject")]
+    if not results:
+        raise SolverFailed("CalculiX gave no results", f"see {tools.working_dir}")
+    data = Path(tools.inp_file_name).with_suffix(".dat")
+    return Solution(results[-1], deck.reactions(data), rows, data.parent)
+
+
+def write_deck(
+    analysis: Any, folder: str | Path | None = None, strict: bool = True
+) -> tuple[Path, list[load_check.Row]]:
+    """Write the deck and check that the loads arrive; the arguments and errors of `solve`."""
+    tools, rows = _written(analysis, folder, strict)
+    return Path(tools.inp_file_name), rows
+
+
+def _written(
+    analysis: Any, folder: str | Path | None, strict: bool
+) -> tuple[Any, list[load_check.Row]]:
+    """Return FreeCAD's runner with its deck written, and the loads compared."""
     from femtools import ccxtools
 
-    place = Path(folder or tempfile.mkdtemp(prefix="tetra_ccx_"))
     tools = ccxtools.FemToolsCcx(analysis, _solver(analysis))
     tools.update_objects()
-    tools.setup_working_dir(str(place))
+    tools.setup_working_dir(str(folder or tempfile.mkdtemp(prefix="tetra_ccx_")))
     missing = tools.check_prerequisites()
     if missing:
         raise SolverFailed(missing.strip(), "complete the analysis")
     tools.purge_results()
     tools.write_inp_file()
-    rows = load_check.check(analysis, tools.inp_file_name, strict)
-    code = tools.ccx_run()
-    if code:
-        told = [line for line in tools.ccx_stdout.splitlines() if "ERROR" in line]
-        raise SolverFailed(f"CalculiX ended with {code}: {' '.join(told[:3])}", f"see {place}")
-    tools.load_results()
-    results = [m for m in analysis.Group if m.isDerivedFrom("Fem::FemResultObject")]
-    if not results:
-        raise SolverFailed("CalculiX gave no results", f"see {place}")
-    data = Path(tools.inp_file_name).with_suffix(".dat")
-    return Solution(results[-1], deck.reactions(data), rows, place)
+    return tools, load_check.check(analysis, tools.inp_file_name, strict)
 
 
 def _solver(analysis: Any) -> Any:

@@ -23,8 +23,9 @@ PARTS = (
     "Page_080_Exercise3D-21_byHannu", "Page_108_Exercise3D-49_v2_byHannu",
     "WhiffleBall_Tutorial_FCWiki", "page67_bynormandc", "example_3", "page68_bybejant",
 )  # fmt: skip
-# TETRA_ALL_PARTS=1 asks for all of them, which take minutes each on a busy machine.
-REMESHED = PARTS if os.environ.get("TETRA_ALL_PARTS") else (PARTS[1], PARTS[4], PARTS[8])
+# With quality all are meshed and loaded, but CalculiX, which takes up to a minute, solves these
+# only, or all with TETRA_ALL_PARTS=1.
+SOLVED = PARTS if os.environ.get("TETRA_ALL_PARTS") else (PARTS[1], PARTS[4], PARTS[8])
 
 
 def chosen_faces(shape: Any) -> tuple[str, str]:
@@ -87,18 +88,26 @@ class TenParts(InAnalysis):
         volume = jacobian.volumes(points[tets]).sum()
         self.assertAlmostEqual(volume / part.Shape.Volume, 1, delta=1e-3)
         self.faces_are_kept(part, mesh, points)
-        self.arrived(name, solve.solve(self.analysis))
+        if name in SOLVED:
+            self.arrived(name, solve.solve(self.analysis))
+        else:
+            self.near(solve.write_deck(self.analysis)[1])
         least, off = np.degrees(found.min_dihedral.min()), volume / part.Shape.Volume - 1
         print(f"{name}: {len(tets)} elements, least angle {least:.2f}, volume {off:.1e}")
 
     def arrived(self, name: str, solution: solve.Solution) -> None:
         """Every load is within a hundredth and the support carries it."""
-        for row in solution.rows:
-            self.assertLess(row.error, 0.01, str(row))
+        self.near(solution.rows)
         (force,) = [row for row in solution.rows if "force" in row.what]
         carried = float(np.linalg.norm(solution.reactions["FIXED"]))
         self.assertAlmostEqual(carried / force.found, 1, delta=1e-3)
         print(name, *solution.rows, sep="\n   ")
+
+    def near(self, rows: Any) -> None:
+        """The areas of both constraints and the force are there, and right."""
+        self.assertEqual(len(rows), 3)
+        for row in rows:
+            self.assertLess(row.error, 0.01, str(row))
 
     def faces_are_kept(self, part: Any, mesh: Any, points: Any) -> None:
         """Groups are complete, and those of planes plane."""
@@ -115,5 +124,4 @@ class TenParts(InAnalysis):
 
 for _part in PARTS:
     setattr(TenParts, f"test_default_{_part}", partialmethod(TenParts.by_default, _part))
-for _part in REMESHED:
     setattr(TenParts, f"test_quality_{_part}", partialmethod(TenParts.with_quality, _part))
