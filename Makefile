@@ -97,7 +97,7 @@ translations:
 
 # Beside CGAL and TetGen, which are installed for this target only, and over growing solids.
 benchmark: $(STAMPS)/install
-	tools/install_debian.sh libcgal-dev freecad
+	tools/install_debian.sh libcgal-dev freecad calculix-ccx
 	cmake -S . -B build/benchmarks -G Ninja -DTETRA_BUILD_BENCHMARKS=ON
 	cmake --build build/benchmarks --target cgal_cells
 	failed=0; \
@@ -107,6 +107,8 @@ benchmark: $(STAMPS)/install
 	$(BIN)/python benchmarks/growth.py -o benchmarks/results/growth.json \
 	    --plot benchmarks/results/growth.png || failed=1; \
 	$(BIN)/python benchmarks/compound_vs_part.py -o benchmarks/results/compound_vs_part.json || failed=1; \
+	$(BIN)/python benchmarks/fem_convergence.py -o benchmarks/results/fem_convergence.json \
+	    --plot benchmarks/results/fem_convergence.png || failed=1; \
 	exit $$failed
 
 clean:

@@ -6,6 +6,7 @@ of its outer radius is compared with the finest mesh's and with Lame's. Middles 
 lie on the cylinders, so the order is that of the elements: 2 for four nodes, 4 for ten.
 
 Usage: ``fem_convergence.py [-o FILE.json] [--plot FILE.png] [--times N]``; wants ccx and mmg3d.
+Exit code 1 when an order between the finest meshes is lower than that by more than a half.
 """
 
 from __future__ import annotations
@@ -16,6 +17,7 @@ import sys
 import tempfile
 from itertools import pairwise
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 
@@ -30,6 +32,7 @@ from freecad_tetra.fem.second_order import second_order
 
 PRESSURE, INNER, OUTER = 10.0, 10.0, 20.0
 MODULUS, POISSON = cx.STEEL
+EXPECTED, SLACK = {"tet4": 2.0, "tet10": 4.0}, 0.5  # of the order between the two finest meshes
 
 
 def lame() -> float:
@@ -101,22 +104,25 @@ def plot(found: dict[str, list[dict[str, float]]], path: str) -> None:
     figure.savefig(path, dpi=110)
 
 
-def main() -> None:
-    """Run the study for both orders."""
+def main() -> int:
+    """Run the study for both orders; return 1 when one is missed."""
     parser = argparse.ArgumentParser(description=__doc__.split("\n")[0])
     parser.add_argument("-o", "--output")
     parser.add_argument("--plot")
     parser.add_argument("--times", type=int, default=3, help="refinements")
     given = parser.parse_args()
     found = {f"tet{n}": study(order, given.times) for n, order in ((4, 1), (10, 2))}
+    missed = [name for name, rows in found.items() if orders(rows)[-1] < EXPECTED[name] - SLACK]
     for name, rows in found.items():
         print(name, "orders", [round(x, 2) for x in orders(rows)])
     if given.output:
-        told = {name: {"rows": rows, "orders": orders(rows)} for name, rows in found.items()}
+        told: dict[str, Any] = {"missed": missed}
+        told |= {name: {"rows": rows, "orders": orders(rows)} for name, rows in found.items()}
         Path(given.output).write_text(json.dumps(told, indent=1) + "\n")
     if given.plot:
         plot(found, given.plot)
+    return 1 if missed else 0
 
 
 if __name__ == "__main__":
-    main()
+    sys.exit(main())
