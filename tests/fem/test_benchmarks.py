@@ -80,6 +80,22 @@ def test_plate_with_a_hole_has_the_known_concentration(tmp_path: Path) -> None:
     assert reaction(found, cuts[0].name)[0] == pytest.approx(-100 * 50 * 4, rel=1e-3)
 
 
+@pytest.mark.parametrize("options", [{}, FINE])
+def test_bar_of_two_materials_splits_the_strain(tmp_path: Path, options: dict[str, Any]) -> None:
+    """Bonded ends of one section under one force: strains are inverse to the moduli."""
+    mesh = fem_mesh(parts.bonded_bar(), **options)
+    root, end = cx.face_at(mesh, plane(0, 0)), cx.face_at(mesh, plane(0, 80))
+    joint = cx.face_at(mesh, plane(0, 40))
+    materials = {"Solid1": (210_000.0, 0.0), "Solid2": (70_000.0, 0.0)}
+    pull = ["*DSLOAD", f"{end.name}_surface,P,-10"]
+    found = cx.solve(tmp_path, mesh, {root.name: (1, 2, 3)}, pull, materials)
+    first = 10 / 210_000 * 40
+    assert found.displacement[joint.nodes, 0] == pytest.approx(first, rel=1e-4)
+    assert found.displacement[end.nodes, 0] == pytest.approx(first + 3 * first, rel=1e-4)
+    assert found.stress[:, 0] == pytest.approx(10, rel=1e-3)
+    assert reaction(found, root.name) == pytest.approx([-1000, 0, 0], abs=1)
+
+
 def test_quality_reaches_its_angle(tmp_path: Path) -> None:
     for part in (parts.beam(), parts.quarter_tube(), parts.quarter_plate()):
         mesh = fem_mesh(part, quality=True)

@@ -196,3 +196,29 @@ class Plate(InAnalysis):
 
     def test_has_the_known_stress_concentration(self) -> None:
         self.check(Quality=True, ElementsPerTurn=24)
+
+
+class Bar(InAnalysis):
+    """Two bars of 40 x 10 x 10 mm end to end, three times as soft in the second, pulled by 1000 N."""
+
+    def check(self, **properties: Any) -> None:
+        both, _ = Part.makeBox(40, 10, 10).generalFuse([Part.makeBox(40, 10, 10, Vector(40, 0, 0))])
+        bar = self.feature_of(both)
+        self.material("Hard", [(bar, "Solid1")], PoissonRatio="0.0")
+        self.material("Soft", [(bar, "Solid2")], PoissonRatio="0.0", YoungsModulus="70000 MPa")
+        self.fixed(bar, face_where(bar, plane_at("x", 0)))
+        self.pressure(bar, face_where(bar, plane_at("x", 80)), -10)
+        solution, mesh = self.solved(bar, **properties)
+        nodes, moved, stress = self.fields(solution, mesh)
+        first = 10 / 210_000 * 40
+        for at, wanted in ((40, first), (80, first + 3 * first)):
+            section = np.abs(nodes[:, 0] - at) < 1e-7
+            np.testing.assert_allclose(moved[section, 0], wanted, rtol=1e-4)
+        np.testing.assert_allclose(stress[1:, 0], 10, rtol=1e-3)
+        np.testing.assert_allclose(solution.reactions["FIXED"], [-1000, 0, 0], atol=1)
+
+    def test_strain_is_inverse_to_the_modulus(self) -> None:
+        self.check()
+
+    def test_with_quality(self) -> None:
+        self.check(Quality=True)
