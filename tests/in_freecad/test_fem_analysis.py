@@ -199,7 +199,7 @@ class Plate(InAnalysis):
 
 
 class Bar(InAnalysis):
-    """Two bars of 40 x 10 x 10 mm end to end, three times as soft in the second, pulled by 1000 N."""
+    """Two bars of 40 x 10 x 10 mm end to end, the second three times as soft, pulled by 1000 N."""
 
     def check(self, **properties: Any) -> None:
         both, _ = Part.makeBox(40, 10, 10).generalFuse([Part.makeBox(40, 10, 10, Vector(40, 0, 0))])

@@ -2,6 +2,7 @@
 // Which method is tried, and what follows when one fails.
 #include "tetra/assemble/decompose_cells.h"
 
+#include <cmath>
 #include <optional>
 #include <utility>
 
@@ -19,6 +20,16 @@ constexpr std::size_t kFencedTriangles = 5000;
 // more, and there fences may do better.
 constexpr double kCellsPerNotch = 1.1;
 
+// Relative error of all solids' volume that a result may have; see verify.py. A thin solid among
+// others may have more.
+constexpr double kVolumeTolerance = 1e-7;
+
+void require_volume(const CellsStats& stats) {
+    if (std::fabs(stats.volume - stats.solid_volume) >
+        kVolumeTolerance * std::fabs(stats.solid_volume))
+        throw VerificationFailed("the cells' volumes do not add up to the solids'");
+}
+
 // Facets in contact within one solid can leave a section that does not close; giving both sides of
 // every contact common vertices first helps there, and would only cost time elsewhere.
 CellsOutcome by_notches(const GridSolid& solid, const std::vector<Vec3d>& vertices,
@@ -26,14 +37,17 @@ CellsOutcome by_notches(const GridSolid& solid, const std::vector<Vec3d>& vertic
     CellsOutcome outcome;
     try {
         outcome.cells = convex_cells(solid, vertices, options, progress);
+        require_volume(outcome.cells.stats);
     } catch (const VerificationFailed&) {
         outcome.cells = convex_cells(conform_contacts(solid), vertices, options, progress);
+        require_volume(outcome.cells.stats);
     }
     outcome.by_bajaj_dey = static_cast<int>(outcome.cells.cell_solid.size());
     return outcome;
 }
 
 CellsOutcome outcome_of(FencedCells&& fenced) {
+    require_volume(fenced.cells.stats);
     CellsOutcome outcome;
     outcome.by_fences = static_cast<int>(fenced.cells.cell_solid.size());
     outcome.cells = std::move(fenced.cells);

@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "evaluate.h"
 #include "tetra/errors.h"
 
 namespace tetra::notch {
@@ -24,13 +23,10 @@ double tetra_volume(const Vec3d& o, const Vec3d& a, const Vec3d& b, const Vec3d&
 
 class Collector {
   public:
-    Collector(const GridSolid& solid, const std::vector<Vec3d>& vertices, const Decomposition& r,
-              ConvexCells& out)
+    Collector(const GridSolid& solid, const Decomposition& r, ConvexCells& out)
         : solid_(solid),
-          vertices_(vertices),
           r_(r),
           out_(out),
-          planes_(fit_caller_planes(solid, vertices, r.classes.key, r.points.planes())),
           source_of_key_(static_cast<std::size_t>(2 * r.points.planes()), -1),
           number_(static_cast<std::size_t>(r.points.points()), -1),
           seen_(static_cast<std::size_t>(r.edges.size()), 0) {
@@ -67,7 +63,7 @@ class Collector {
         int& n = number_[point];
         if (n < 0) {
             n = static_cast<int>(out_.points.size());
-            out_.points.push_back(evaluate_point(r_.points, point, solid_, vertices_, planes_));
+            out_.points.push_back(r_.placed[point]);
             out_.point_source.push_back(point < r_.points.inputs() ? solid_.point_source[point]
                                                                    : -1);
             out_.exact.push_back(r_.points.exact(point));
@@ -76,10 +72,8 @@ class Collector {
     }
 
     const GridSolid& solid_;
-    const std::vector<Vec3d>& vertices_;
     const Decomposition& r_;
     ConvexCells& out_;
-    CallerPlanes planes_;
     std::vector<int> source_of_key_, number_;
     std::vector<char> seen_;
 };
@@ -119,9 +113,8 @@ GridSolid canonical_solid(const GridSolid& all, int solid) {
     return one;
 }
 
-void collect_cells(const GridSolid& solid, const std::vector<Vec3d>& vertices,
-                   const Decomposition& result, ConvexCells& out) {
-    Collector collector(solid, vertices, result, out);
+void collect_cells(const GridSolid& solid, const Decomposition& result, ConvexCells& out) {
+    Collector collector(solid, result, out);
     for (const int seed : result.cells) collector.add_cell(seed);
 }
 

@@ -9,9 +9,8 @@ namespace tetra::notch {
 // One solid with points and triangles in an order that does not depend on the caller's.
 GridSolid canonical_solid(const GridSolid& all, int solid);
 
-// Appends the cells of a run over one solid, in the caller's coordinates.
-void collect_cells(const GridSolid& solid, const std::vector<Vec3d>& vertices,
-                   const Decomposition& result, ConvexCells& out);
+// Appends the cells of a run over one solid whose points are placed.
+void collect_cells(const GridSolid& solid, const Decomposition& result, ConvexCells& out);
 
 // Fills the volumes of cells.stats. Throws VerificationFailed when they differ by more than 1e-6.
 void measure_volumes(const GridSolid& solid, const std::vector<Vec3d>& vertices,

@@ -8,6 +8,7 @@
 
 #include "check_cells.h"
 #include "collect_cells.h"
+#include "place_points.h"
 #include "tetra/errors.h"
 
 namespace tetra {
@@ -37,7 +38,7 @@ class Cutter {
             Attempt a = attempt(solid, static_cast<std::uint64_t>(i));
             if (!best || a.result.cells.size() < best->result.cells.size()) best = std::move(a);
         }
-        collect_cells(solid, vertices_, best->result, out_);
+        collect_cells(solid, best->result, out_);
         set_stats(*best);
     }
 
@@ -53,9 +54,10 @@ class Cutter {
             a.result = decompose(solid, options_, a.delta, demoted, seed, progress_);
             std::vector<std::vector<int>> at_fault = a.result.contradictions;
             if (at_fault.empty()) {
-                Fault fault = find_fault(a.result);
-                if (fault.reason.empty()) return a;
-                at_fault.push_back(std::move(fault.planes));
+                place_points(solid, vertices_, a.result);
+                std::vector<Fault> faults = find_faults(solid.grid, a.result);
+                if (faults.empty()) return a;
+                for (Fault& fault : faults) at_fault.push_back(std::move(fault.planes));
             }
             ++a.restarts;
             if (!demote(a.result.classes, at_fault, demoted, a.demoted)) break;
@@ -64,8 +66,9 @@ class Cutter {
         a.result = decompose(solid, options_, 0, {}, seed, progress_);
         if (!a.result.contradictions.empty())
             throw VerificationFailed("notch cutting: a section does not close");
-        const Fault fault = find_fault(a.result);
-        if (!fault.reason.empty()) throw VerificationFailed("notch cutting: " + fault.reason);
+        place_points(solid, vertices_, a.result);
+        const std::vector<Fault> faults = find_faults(solid.grid, a.result);
+        if (!faults.empty()) throw VerificationFailed("notch cutting: " + faults.front().reason);
         return a;
     }
 

@@ -21,6 +21,10 @@ struct Decomposition {
     HalfEdges edges;
     PlaneClasses classes;
     std::vector<int> cells;  // one half-edge each
+    // By place_points(): the caller's coordinates of the cells' points, and in grid steps the
+    // planes they were brought to.
+    std::vector<Vec3d> placed;
+    std::vector<std::array<double, 4>> placed_planes;
     // Pieces that no plane could cut because classes contradict themselves there: the planes of
     // each. Empty for a usable result.
     std::vector<std::vector<int>> contradictions;

@@ -8,8 +8,6 @@
 namespace tetra::notch {
 namespace {
 
-using Matrix = std::array<std::array<double, 3>, 3>;
-
 Vec3d to_grid(const Grid& grid, const Vec3d& p) {
     return {(p[0] - grid.origin[0]) / grid.step, (p[1] - grid.origin[1]) / grid.step,
             (p[2] - grid.origin[2]) / grid.step};
@@ -22,9 +20,11 @@ Vec3d cross(const Vec3d& a, const Vec3d& b) {
 }
 
 // Gram-Schmidt over rows (unit normal, residual): each row that still says something new moves
-// the point within the space the earlier rows leave free.
+// the point within the space the earlier rows leave free; one that asks for too much is left out.
 class Correction {
   public:
+    explicit Correction(double farthest) : farthest_(farthest) {}
+
     void add(const Vec3d& normal, double residual) {
         if (count_ == 3) return;
         Vec3d n = normal;
@@ -36,10 +36,13 @@ class Correction {
         const double length = std::sqrt(dot(n, n));
         // Nearly parallel planes would turn sub-step residuals into large moves.
         if (length < 1e-3) return;
+        Vec3d moved = shift_;
         for (int k = 0; k < 3; ++k) {
             n[k] /= length;
-            shift_[k] += n[k] * r / length;
+            moved[k] += n[k] * r / length;
         }
+        if (dot(moved, moved) > farthest_ * farthest_) return;
+        shift_ = moved;
         basis_[count_++] = n;
     }
     const Vec3d& shift() const { return shift_; }
@@ -47,6 +50,7 @@ class Correction {
   private:
     std::array<Vec3d, 3> basis_{};
     Vec3d shift_{0, 0, 0};
+    double farthest_;
     int count_ = 0;
 };
 
@@ -72,9 +76,10 @@ void follow_edge(const Line& line, const GridSolid& solid, const std::vector<Vec
 }  // namespace
 
 CallerPlanes fit_caller_planes(const GridSolid& solid, const std::vector<Vec3d>& vertices,
-                               const std::vector<int>& keys, int planes) {
+                               const std::vector<int>& keys, const PointTable& points) {
     CallerPlanes fit;
-    fit.unit.assign(static_cast<std::size_t>(planes), {0, 0, 0, 0});
+    const int planes = points.planes();
+    for (int i = 0; i < planes; ++i) fit.unit.push_back(points.unit_plane(i));
     fit.has.assign(static_cast<std::size_t>(planes), 0);
     std::vector<Vec3d> normal(static_cast<std::size_t>(planes), Vec3d{0, 0, 0});
     std::vector<Vec3d> centre(static_cast<std::size_t>(planes), Vec3d{0, 0, 0});
@@ -109,17 +114,18 @@ CallerPlanes fit_caller_planes(const GridSolid& solid, const std::vector<Vec3d>&
 }
 
 Vec3d evaluate_point(const PointTable& points, int point, const GridSolid& solid,
-                     const std::vector<Vec3d>& vertices, const CallerPlanes& planes) {
+                     const std::vector<Vec3d>& vertices, const CallerPlanes& planes,
+                     double farthest) {
     if (point < points.inputs()) return vertices[solid.point_source[point]];
     const Vec3d& at = points.approx(point);
-    Correction correction;
+    Correction correction(farthest);
     const int line = points.defining_line(point);
     if (line >= 0 && points.line(line).u >= 0)
         follow_edge(points.line(line), solid, vertices, at, correction);
     for (const int plane : points.on(point)) {
         if (!planes.has[plane]) continue;
-        const std::array<double, 4>& n = planes.unit[plane];
-        correction.add({n[0], n[1], n[2]}, -(n[0] * at[0] + n[1] * at[1] + n[2] * at[2] + n[3]));
+        const UnitPlane& n = planes.unit[plane];
+        correction.add({n[0], n[1], n[2]}, -height(n, at));
     }
     Vec3d moved = at;
     for (int k = 0; k < 3; ++k) moved[k] += correction.shift()[k];

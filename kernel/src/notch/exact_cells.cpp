@@ -73,8 +73,8 @@ Polyhedra exact_cells(const GridSolid& solid, const CellsOptions& options, Cells
     Decomposition run = decompose(solid, options, 0, {}, options.seed, progress);
     if (!run.contradictions.empty())
         throw VerificationFailed("notch cutting: a section does not close");
-    const Fault fault = find_fault(run);
-    if (!fault.reason.empty()) throw VerificationFailed("notch cutting: " + fault.reason);
+    const std::vector<Fault> faults = find_faults(solid.grid, run);
+    if (!faults.empty()) throw VerificationFailed("notch cutting: " + faults.front().reason);
     stats.notches = run.notches;
     stats.planes = run.planes;
     stats.cuts = run.cuts;

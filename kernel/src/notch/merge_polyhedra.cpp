@@ -8,6 +8,7 @@
 #include "check_cells.h"
 #include "collect_cells.h"
 #include "merge_cells.h"
+#include "place_points.h"
 #include "place_vertices.h"
 #include "tetra/errors.h"
 #include "volume_residue.h"
@@ -98,10 +99,11 @@ ConvexCells merge_polyhedra(const GridSolid& solid, const std::vector<Vec3d>& ve
     const int raw = static_cast<int>(run.cells.size());
     if (merge) run.cells = merge_cells(run.points, run.edges, run.cells);
     progress.poll("merging cells", 1);
-    const Fault fault = find_fault(run);
-    if (!fault.reason.empty()) throw VerificationFailed("cells from fences: " + fault.reason);
+    place_points(solid, vertices, run);
+    const std::vector<Fault> faults = find_faults(solid.grid, run);
+    if (!faults.empty()) throw VerificationFailed("cells from fences: " + faults.front().reason);
     ConvexCells cells;
-    collect_cells(solid, vertices, run, cells);
+    collect_cells(solid, run, cells);
     cells.stats.notches = static_cast<int>(notches.size());
     cells.stats.raw_cells = raw;
     measure_volumes(solid, vertices, cells);

@@ -12,6 +12,13 @@
 
 namespace tetra::notch {
 
+// Unit normal and offset in grid steps.
+using UnitPlane = std::array<double, 4>;
+
+inline double height(const UnitPlane& n, const Vec3d& p) {
+    return n[0] * p[0] + n[1] * p[1] + n[2] * p[2] + n[3];
+}
+
 // The support of an edge: an input edge (u, v = point ids) or two planes (p, q = plane ids).
 struct Line {
     int u = -1, v = -1;
@@ -79,17 +86,13 @@ class PointTable {
     const Vec3d& approx(int point) const { return approx_[point]; }
     const HPoint& exact(int point) const { return exact_[point]; }
     const Plane& plane(int id) const { return planes_[id]; }
-    const std::array<double, 4>& unit_plane(int id) const { return unit_[id]; }
+    const UnitPlane& unit_plane(int id) const { return unit_[id]; }
     const Line& line(int id) const { return lines_[id]; }
     const std::vector<int>& on(int point) const { return on_[point]; }
     int defining_line(int point) const { return line_of_[point]; }
     const Vec3i& input(int point) const { return inputs_[point]; }
     bool is_moved(int point) const { return moved_[point]; }
-    double distance(int point, int plane) const {
-        const std::array<double, 4>& n = unit_[plane];
-        const Vec3d& x = approx_[point];
-        return n[0] * x[0] + n[1] * x[1] + n[2] * x[2] + n[3];
-    }
+    double distance(int point, int plane) const { return height(unit_[plane], approx_[point]); }
     double tolerance() const { return tolerance_; }
 
   private:
@@ -99,7 +102,7 @@ class PointTable {
 
     double tolerance_;  // bounds the error of distance() and of approx(), in grid steps
     PlaneTable planes_;
-    std::vector<std::array<double, 4>> unit_;
+    std::vector<UnitPlane> unit_;
     std::vector<Vec3i> inputs_;  // input points come first
     std::vector<char> moved_;    // per input point: not where its grid coordinates are
     std::vector<HPoint> exact_;
