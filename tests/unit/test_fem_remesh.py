@@ -54,7 +54,7 @@ def test_solids_and_their_interface_are_kept(program: Path, cube_tets: TetMesh) 
         cube_tets.points, cube_tets.tets, rows, face, np.arange(len(rows)), solid,
         cube_tets.point_source, (*cube_tets.face_names, "Face7"),
     )  # fmt: skip
-    made = remesh(pair, program, Sizes(size=0.3))
+    made = remesh(pair, program, Sizes(size=0.5))
     assert np.bincount(made.tet_solid, made.volumes()) == pytest.approx([0.5, 0.5], rel=1e-9)
     assert face_areas(made) == pytest.approx(face_areas(pair), rel=1e-9)
     _, count = np.unique(
