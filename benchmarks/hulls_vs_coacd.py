@@ -21,15 +21,14 @@ import json
 import os
 import platform
 import re
-import subprocess
 import sys
 import tempfile
-import venv
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 from cells_vs_cgal import ROOT, timed
+from peer import python_with
 
 sys.path.insert(0, str(ROOT / "tests/tools"))
 from hull_measure import measure
@@ -71,16 +70,6 @@ print(json.dumps({"seconds": seconds, "threshold": float(sys.argv[5])}))
 """
 
 
-def coacd_python(folder: Path) -> Path:
-    """Return the interpreter of an environment that has CoACD, made when it is missing."""
-    python = folder / "bin/python"
-    if not python.exists():
-        venv.create(folder, with_pip=True)
-    if subprocess.run([python, "-c", "import coacd"], check=False, capture_output=True).returncode:
-        subprocess.run([python, "-m", "pip", "install", "--quiet", COACD], check=True)
-    return python
-
-
 def hulls_of(command: list[str], result: Path, limit: float) -> tuple[dict[str, Any], list[Any]]:
     """Return what a run printed, and the points of its hulls."""
     status, output = timed(command, limit)
@@ -105,7 +94,7 @@ def hulls_of_coacd(
     found: dict[str, Any] = {"status": "not run"}
     hulls: list[Any] = []
     for threshold in THRESHOLDS:
-        command = [str(coacd_python(options.venv)), "-c", THEIRS, str(arrays), str(result)]
+        command = [str(python_with(COACD, options.venv)), "-c", THEIRS, str(arrays), str(result)]
         command += [str(parts), str(options.vertices), str(threshold)]
         found, hulls = hulls_of(command, result, options.limit)
         if found["status"] != "ok" or found["parts"] >= parts:

@@ -20,14 +20,13 @@ import json
 import os
 import platform
 import re
-import subprocess
 import sys
 import tempfile
-import venv
 from pathlib import Path
 from typing import Any
 
 from cells_vs_cgal import ROOT, timed
+from peer import python_with
 
 CORPUS = ROOT.parent / "shared/corpus"
 TETGEN = "tetgen==0.8.4"
@@ -77,16 +76,6 @@ print(json.dumps({
     "steiner": len(points) - len(arrays["vertices"]),
 }))
 """
-
-
-def tetgen_python(folder: Path) -> Path:
-    """Return the interpreter of an environment that has TetGen, made when it is missing."""
-    python = folder / "bin/python"
-    if not python.exists():
-        venv.create(folder, with_pip=True)
-    if subprocess.run([python, "-c", "import tetgen"], check=False, capture_output=True).returncode:
-        subprocess.run([python, "-m", "pip", "install", "--quiet", TETGEN], check=True)
-    return python
 
 
 def last_line(run: tuple[dict[str, Any], str]) -> dict[str, Any]:
@@ -207,7 +196,7 @@ def files_of(inputs: list[Path], only: str) -> list[Path]:
 def main(arguments: list[str]) -> int:
     """Measure, print a table, write the JSON; 1 when a run of ours fails or misses a target."""
     options = parse(arguments)
-    python = tetgen_python(options.venv)
+    python = python_with(TETGEN, options.venv)
     listed = manifest()
     columns = f"{'tets':>6s} {'St.':>4s} {'cpu s':>6s} {'wall':>5s}"
     print(f"{'TetGen, ours, ours compact=max':34s} | {columns} | {columns} | {columns} | ratio")

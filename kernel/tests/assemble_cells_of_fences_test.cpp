@@ -97,11 +97,7 @@ TEST(CellsOfFences, NamedSolids) {
 TEST(CellsOfFences, RandomSolids) {
     for (std::uint64_t seed = 0; seed < 60; ++seed) {
         SCOPED_TRACE(seed);
-        VoxelOptions options;
-        options.max_size = 3;
-        options.cavities = seed % 5 == 0;
-        check(seed % 7 == 0 ? random_type1_solid(seed, options)
-                            : random_voxel_solid(seed, options));
+        check(small_random_solid(seed));
     }
 }
 

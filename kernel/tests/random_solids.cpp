@@ -228,6 +228,13 @@ TestSolid random_type1_solid(std::uint64_t seed, const VoxelOptions& options) {
     return random_type1_solid(seed + 0x5851f42d4c957f2du, options);
 }
 
+TestSolid small_random_solid(std::uint64_t seed) {
+    VoxelOptions options;
+    options.max_size = 3;
+    options.cavities = seed % 5 == 0;
+    return seed % 7 == 0 ? random_type1_solid(seed, options) : random_voxel_solid(seed, options);
+}
+
 TestSolid voxel_solid(const std::vector<std::vector<std::string>>& layers, std::int64_t step) {
     Cells cells(static_cast<int>(layers[0][0].size()), static_cast<int>(layers[0].size()),
                 static_cast<int>(layers.size()));

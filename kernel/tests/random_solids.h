@@ -59,6 +59,9 @@ TestSolid random_convex_solid(std::uint64_t seed, int points);
 // A random voxel solid standing on one vertex inside a top face of another (type 1).
 TestSolid random_type1_solid(std::uint64_t seed, const VoxelOptions& options = {});
 
+// Small voxel solids of all kinds: some with cavities, some of type 1.
+TestSolid small_random_solid(std::uint64_t seed);
+
 // Cells given as layers from below, each a list of rows (y) of characters (x); '#' is solid.
 // Grid planes at steps of `step`.
 TestSolid voxel_solid(const std::vector<std::vector<std::string>>& layers, std::int64_t step = 4);
