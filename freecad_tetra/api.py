@@ -14,6 +14,7 @@ from pathlib import Path
 from typing import Any
 
 from freecad_tetra import brep, directions, kernel, limits
+from freecad_tetra.brep import fill
 from freecad_tetra.errors import (
     BadOption,
     Cancelled,
@@ -409,9 +410,17 @@ def _validate_shape(
 ) -> Validation:
     """Validate a tessellation, finer while it crosses itself or strays in volume."""
     reasons: list[str] = []
+    found: Validation | None = None
     while True:
         _stage(progress, "tessellate")
-        solid = shape.tessellate(wanted, only=only)
+        try:
+            solid = shape.tessellate(wanted, only=only)
+        except InvalidSolid:
+            if found is None:
+                raise
+            return found  # finer is more than OpenCascade can do
+        chord = float(solid.notes.get("linear_deflection", 0.0))
+        solid = fill.filled(solid, kernel.triangulate_polygon, chord)
         found = kernel.validate(_noted(solid, reasons), None, progress)
         reason = _why_finer(found, free)
         if not reason or len(reasons) == RETRIES:

@@ -127,6 +127,22 @@ def test_other_defects_are_not_retried(monkeypatch: pytest.MonkeyPatch) -> None:
     assert judge.seen[0].notes["retries"] == 0
 
 
+def test_what_cannot_be_made_finer_stays_as_it_is(monkeypatch: pytest.MonkeyPatch) -> None:
+    shape, coarse = drilled(), api.brep.Shape.tessellate
+
+    def once(self: Any, wanted: Any, only: Any, name: str = "") -> Solid:
+        if wanted != api.brep.Deflection():
+            raise InvalidSolid([Defect("no_mesh", "OpenCascade cannot tessellate them")])
+        return coarse(self, wanted, only, name)
+
+    monkeypatch.setattr(api.brep.Shape, "tessellate", once)
+    monkeypatch.setattr(api, "VOLUME_SHARE", 1e-4)
+    found = api.validate(shape)
+    assert not found.defects and found.solid.notes["retries"] == 0
+    monkeypatch.setattr(kernel, "validate", Judge([(CROSSING,)]))
+    assert api.validate(shape).defects == (CROSSING,)
+
+
 def test_a_volume_that_strays_is_made_finer(monkeypatch: pytest.MonkeyPatch) -> None:
     judge = Judge([()] * 4)
     monkeypatch.setattr(kernel, "validate", judge)
