@@ -63,7 +63,7 @@ test-kernel: $(STAMPS)/venv
 	ctest --test-dir $(CHECKS) --output-on-failure --parallel $(JOBS)
 
 test-python: $(STAMPS)/install
-	$(BIN)/python -m pytest tests --numprocesses $(JOBS)
+	$(BIN)/python -m pytest tests --numprocesses $(JOBS) --dist worksteal
 
 # The checkout becomes a workbench of the user's FreeCAD.
 install-freecad: export MAKE := $(MAKE)
