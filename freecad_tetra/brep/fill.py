@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""Fills flat holes that OpenCascade's mesher leaves beside slender corners of a face."""
+"""Fills slits that OpenCascade's mesher leaves beside slender corners of a face."""
 
 from __future__ import annotations
 
@@ -13,12 +13,13 @@ import numpy.typing as npt
 from freecad_tetra.errors import TetraError
 from freecad_tetra.model import FloatArray, IntArray, Solid
 
-MOST_EDGES = 64  # of a hole: longer ones are missing faces
+MOST_EDGES = 64  # of a slit
+SLIT = 0.01  # of the chord height: what is wider is open in the B-rep, too, and told
 Split = Callable[[FloatArray, Sequence[Any]], IntArray]
 
 
 def filled(solid: Solid, split: Split, height: float) -> Solid:
-    """Return the solid with its flat holes closed by triangles; ``notes["filled_holes"]`` counts.
+    """Return the solid with its slits closed by triangles; ``notes["filled_holes"]`` counts.
 
     Parameters
     ----------
@@ -26,7 +27,7 @@ def filled(solid: Solid, split: Split, height: float) -> Solid:
     split : callable
         ``split(points, loops)`` triangulates a polygon, see `kernel.triangulate_polygon`.
     height : float
-        How far a hole's vertices may be from one plane, mm: that of chords.
+        That of chords, mm; a hundredth of it is the most for a slit's width and depth.
 
     A new triangle belongs to the face with most of the hole's rim. O(m log m).
     """
@@ -37,7 +38,7 @@ def filled(solid: Solid, split: Split, height: float) -> Solid:
     for number in np.unique(solid_ids):
         own = solid_ids == number
         for loop, face in _holes(solid.vertices, solid.triangles[own], solid.face_ids[own]):
-            new = _flat(solid.vertices, loop, split, height)
+            new = _flat(solid.vertices, loop, split, SLIT * height)
             if new is None:
                 continue
             holes += 1
@@ -82,13 +83,14 @@ def _holes(points: FloatArray, triangles: IntArray, faces: IntArray) -> list[tup
 
 
 def _flat(
-    points: FloatArray, loop: list[int], split: Split, height: float
+    points: FloatArray, loop: list[int], split: Split, most: float
 ) -> npt.NDArray[np.int32] | None:
-    """Return the triangles of a hole, None when it is not flat or its rim crosses itself."""
+    """Return the triangles of a hole, None when it is no slit or its rim crosses itself."""
     rim = points[loop] - points[loop].mean(axis=0)
     normal = np.cross(rim, np.roll(rim, -1, axis=0)).sum(axis=0)
     area = float(np.linalg.norm(normal))
-    if area == 0 or np.abs(rim @ (normal / area)).max() > height:
+    longest = float(np.linalg.norm(np.ptp(rim, axis=0)))
+    if area == 0 or max(area / longest, np.abs(rim @ (normal / area)).max()) > most:
         return None
     across = np.eye(3)[np.argmin(np.abs(normal))]
     right = np.cross(across, normal)

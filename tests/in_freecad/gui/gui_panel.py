@@ -58,6 +58,7 @@ class Panel(WindowTest):
         widget("TetraCompute").click()
         wait_for(lambda: self.stages()[-1:] == ["cutting notches"], "the cutting of notches", 120)
         pump(0.5)
+        wait_for(lambda: len(children_at_work()) == 1, "the end of counting facts", 20)
         return torus
 
     def stages(self) -> list[str]:
