@@ -73,6 +73,7 @@ inside "$root" apt-get -q install -y --no-install-recommends make
 for target in "${targets[@]}"; do
     echo "==== make $target"
     SECONDS=0
-    inside "$root" make -C /work/main "$target"
+    # shellcheck disable=SC2086  # a target, and variables of make
+    inside "$root" make -C /work/main $target
     echo "==== make $target: done in $SECONDS s"
 done

@@ -3,6 +3,7 @@
 
 from __future__ import annotations
 
+import os
 from typing import Any
 
 import numpy as np
@@ -75,7 +76,13 @@ class InAnalysis(InDocument):
         mesh = feature.make_fem_mesh(self.doc, obj, self.analysis, **properties)
         self.doc.recompute()
         self.assertEqual(mesh.State, ["Up-to-date"], mesh.getStatusString())
-        return solve.solve(self.analysis), mesh
+        return self.solution(), mesh
+
+    def solution(self) -> solve.Solution:
+        """Solve the analysis; the test ends here where CALCULIX says that there is none."""
+        if os.environ.get("CALCULIX") == "":
+            self.skipTest("this system has no CalculiX")
+        return solve.solve(self.analysis)
 
     def fields(self, solution: solve.Solution, mesh: Any) -> tuple[Any, Any, Any]:
         """Return nodes (n + 1, 3), displacements (n + 1, 3), stresses (n + 1, 6) by node."""

@@ -77,7 +77,7 @@ class TenParts(InAnalysis):
     def by_default(self, name: str) -> None:
         _, mesh = self.loaded(name)
         self.assertEqual(len(quality_of(*self.elements(mesh)).nonpositive()), 0)
-        self.arrived(name, solve.solve(self.analysis))
+        self.arrived(name, self.solution())
 
     def with_quality(self, name: str) -> None:
         part, mesh = self.loaded(name, Quality=True)
@@ -89,7 +89,7 @@ class TenParts(InAnalysis):
         self.assertAlmostEqual(volume / part.Shape.Volume, 1, delta=1e-3)
         self.faces_are_kept(part, mesh, points)
         if name in SOLVED:
-            self.arrived(name, solve.solve(self.analysis))
+            self.arrived(name, self.solution())
         else:
             self.near(solve.write_deck(self.analysis)[1])
         least, off = np.degrees(found.min_dihedral.min()), volume / part.Shape.Volume - 1
