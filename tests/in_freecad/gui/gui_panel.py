@@ -51,14 +51,14 @@ def compute() -> None:
 
 class Panel(WindowTest):
     def long_work(self) -> Any:
-        """Open the panel on a solid whose cells take half a minute, and start."""
+        """Open the panel on a solid whose cells take long, and start."""
         torus = self.add(Part.makeTorus(10, 3))
         open_panel("Tetra_ConvexCells", torus)
-        widget("AngularDeflection").setProperty("rawValue", 9.0)
+        widget("AngularDeflection").setProperty("rawValue", 5.0)
         widget("TetraCompute").click()
         wait_for(lambda: self.stages()[-1:] == ["cutting notches"], "the cutting of notches", 120)
         pump(0.5)
-        wait_for(lambda: len(children_at_work()) == 1, "the end of counting facts", 20)
+        wait_for(lambda: len(children_at_work()) == 1, "the end of counting facts", 60)
         return torus
 
     def stages(self) -> list[str]:
@@ -191,7 +191,7 @@ class Panel(WindowTest):
             QtWidgets.QApplication.processEvents()
             now = time.monotonic()
             longest, last = max(longest, now - last), now
-        self.assertLess(longest, 1.0)  # blocked, it would be half a minute
+        self.assertLess(longest, 1.0)  # blocked, it would be many
         self.assertEqual(len(children_at_work()), 1)
 
     def test_killed_child_leaves_freecad_and_the_document_whole(self) -> None:
