@@ -28,6 +28,7 @@ mount_system() {
 }
 copy_settings() {
     cp /etc/resolv.conf "$1/etc/resolv.conf"
+    [[ -e $1/etc/hosts ]] || printf '127.0.0.1 localhost\n::1 localhost\n' > "$1/etc/hosts"
     mkdir -p "$1/etc/ssl/certs" "$1/usr/local/share/ca-certificates"
     cp -L /usr/local/share/ca-certificates/*.crt "$1/usr/local/share/ca-certificates/" 2>/dev/null || true
     [[ ! -e /etc/pip.conf ]] || cp /etc/pip.conf "$1/etc/pip.conf"
