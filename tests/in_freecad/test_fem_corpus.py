@@ -80,6 +80,7 @@ class TenParts(InAnalysis):
         self.arrived(name, self.solution())
 
     def with_quality(self, name: str) -> None:
+        self.want_programs()
         part, mesh = self.loaded(name, Quality=True)
         points, tets = self.elements(mesh)
         found = quality_of(points, tets)
