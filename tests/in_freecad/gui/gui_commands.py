@@ -3,6 +3,7 @@
 
 from __future__ import annotations
 
+from typing import Any
 from unittest import mock
 
 import FreeCAD
@@ -19,6 +20,7 @@ from window import (
     status,
     take_picture,
     tip,
+    wait_for,
 )
 
 from freecad_tetra.workbench import kernel_path
@@ -71,11 +73,20 @@ class Commands(WindowTest):
         self.assertIn("Fills the selected solid", tip("Tetra_Tetrahedralize"))
         take_picture("commands")
 
+    def trees(self) -> list[Any]:
+        """Return the trees that are seen; the Tasks tab may hide the document's: then it is left."""
+        window = FreeCADGui.getMainWindow()
+        trees = window.findChildren(QtWidgets.QTreeWidget)
+        for tabs in window.findChildren(QtWidgets.QTabWidget):
+            for i in range(tabs.count()):
+                if tabs.tabText(i) == "Model":
+                    tabs.setCurrentIndex(i)
+        return [tree for tree in trees if tree.isVisible()]
+
     def context_menu(self) -> list[str]:
         """Return what a click with the right button on the object in the tree offers for it."""
-        window = FreeCADGui.getMainWindow()
-        trees = [t for t in window.findChildren(QtWidgets.QTreeWidget) if t.isVisible()]
-        tree = max(trees, key=lambda t: t.height())
+        wait_for(lambda: self.trees(), "the tree of the document", 10)
+        tree = max(self.trees(), key=lambda t: t.height())
         item = tree.findItems("Part", QtCore.Qt.MatchContains | QtCore.Qt.MatchRecursive)[0]
         place = tree.visualItemRect(item).center()
         found: list[str] = []
