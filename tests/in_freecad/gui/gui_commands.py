@@ -74,7 +74,7 @@ class Commands(WindowTest):
         take_picture("commands")
 
     def trees(self) -> list[Any]:
-        """Return the trees that are seen; the Tasks tab may hide the document's: then it is left."""
+        """Return the trees that are seen, once the Tasks tab does not hide the document's."""
         window = FreeCADGui.getMainWindow()
         trees = window.findChildren(QtWidgets.QTreeWidget)
         for tabs in window.findChildren(QtWidgets.QTabWidget):
