@@ -47,6 +47,11 @@ def quarter_tube() -> Any:
     return common(cut(cylinder(20, 0, 10), cylinder(10, -1, 11)), box((0, 0, 0), (30, 30, 10)))
 
 
+def half_ring() -> Any:
+    """Half of a ring of radii 10 and 20 mm, y >= 0, 5 mm long: a hook with flat ends at y = 0."""
+    return common(cut(cylinder(20, 0, 5), cylinder(10, -1, 6)), box((-30, 0, 0), (30, 30, 5)))
+
+
 def quarter_plate() -> Any:
     """A quarter of a plate 200 x 100 x 4 mm with a hole of 20 mm diameter."""
     return cut(box((0, 0, 0), (100, 50, 4)), cylinder(10, -1, 5))

@@ -10,9 +10,11 @@ from pathlib import Path
 
 import calculix as cx
 import numpy as np
+import parts
 import pytest
 
-from freecad_tetra import fem_mesh
+from freecad_tetra import export, fem_mesh
+from freecad_tetra.fem.groups import face_groups, solid_groups
 
 BRACKET = Path(__file__).resolve().parents[2] / "resources" / "parts" / "bracket.step"
 meshio = pytest.importorskip("meshio", reason="meshio is not installed")
@@ -63,6 +65,65 @@ def test_groups_survive_inp_and_msh(tmp_path: Path) -> None:
     finally:
         gmsh.finalize()
     assert found == wanted and solids == ["Solid1"]
+
+
+def test_elements_of_groups_survive_inp_and_msh(tmp_path: Path) -> None:
+    """Triangles of every face and tetrahedra of both solids, found again by their centres."""
+    mesh = fem_mesh(parts.bonded_bar())
+    faces = {g.name: centres(mesh.points[mesh.skin[g.elements, :3]]) for g in face_groups(mesh)}
+    solids = {g.name: centres(mesh.points[mesh.tets[g.elements, :4]]) for g in solid_groups(mesh)}
+    assert len(faces) == 11 and len(solids) == 2
+    export.write(mesh, tmp_path / "bar.inp")
+    assert groups_of_inp(tmp_path / "bar.inp") == faces | solids
+    export.write(mesh, tmp_path / "bar.msh")
+    assert groups_of_msh(tmp_path / "bar.msh") == faces | solids
+
+
+def groups_of_inp(path: Path) -> dict[str, set[tuple[float, ...]]]:
+    """Return the centres of the members of *ELEMENT, ELSET and *SURFACE."""
+    sides = {"S1": [0, 1, 2], "S2": [0, 3, 1], "S3": [1, 3, 2], "S4": [2, 3, 0]}  # CalculiX's
+    nodes: dict[int, list[float]] = {}
+    corners: dict[int, np.ndarray] = {}
+    found = {}
+    for block in path.read_text().split("*")[1:]:
+        head, *rows = [[word.strip() for word in line.split(",")] for line in block.splitlines()]
+        options = dict(word.split("=") for word in head[1:])
+        if head[0] == "NODE":
+            nodes = {int(row[0]): [float(x) for x in row[1:]] for row in rows}
+        elif head[0] == "ELEMENT":
+            new = {int(row[0]): np.array([nodes[int(n)] for n in row[1:5]]) for row in rows}
+            found[options["ELSET"]] = centres(np.array(list(new.values())))
+            corners |= new
+        elif head[0] == "SURFACE":
+            triangles = np.array([corners[int(row[0])][sides[row[1]]] for row in rows])
+            found[options["NAME"].removesuffix("_surface")] = centres(triangles)
+    return found
+
+
+def groups_of_msh(path: Path) -> dict[str, set[tuple[float, ...]]]:
+    """Return the centres of the members of physical groups, as gmsh reads them."""
+    gmsh = pytest.importorskip("gmsh", reason="gmsh is not installed")
+    gmsh.initialize()
+    try:
+        gmsh.option.setNumber("General.Terminal", 0)
+        gmsh.open(str(path))
+        tags, flat, _ = gmsh.model.mesh.getNodes()
+        points = np.zeros((int(tags.max()) + 1, 3))
+        points[tags.astype(int)] = flat.reshape(-1, 3)
+        found: dict[str, set[tuple[float, ...]]] = {}
+        for group in gmsh.model.getPhysicalGroups():
+            members = found.setdefault(gmsh.model.getPhysicalName(*group), set())
+            for entity in gmsh.model.getEntitiesForPhysicalGroup(*group):
+                _, (ids,), (rows,) = gmsh.model.mesh.getElements(group[0], entity)
+                corners = rows.reshape(len(ids), -1)[:, : group[0] + 1].astype(int)
+                members |= centres(points[corners])
+    finally:
+        gmsh.finalize()
+    return found
+
+
+def centres(corners: np.ndarray) -> set[tuple[float, ...]]:
+    return rounded(corners.mean(axis=1))
 
 
 def rounded(points: np.ndarray) -> set[tuple[float, ...]]:
