@@ -202,7 +202,8 @@ def tetrahedralize(
     options.update(pull_off=pull_off, compact=compact)
     if improve:
         options["quality"] = True
-    if isinstance(axis, str) and axis == "auto" and not found.defects:
+    # Of a bare mesh the kernel finds large planes itself, when it does not do with an axis.
+    if axis == "auto" and not found.defects and found.solid.face_names:
         options["directions"] = directions.candidates(found.surface())
     return kernel.tetrahedralize(found, options, progress)
 

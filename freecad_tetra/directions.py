@@ -3,10 +3,7 @@
 
 from __future__ import annotations
 
-from typing import Any
-
 import numpy as np
-import numpy.typing as npt
 
 from freecad_tetra.model import FloatArray, Solid
 
@@ -23,8 +20,7 @@ def candidates(surface: Solid, limit: int = 4) -> FloatArray:
     """
     corners = surface.vertices[surface.triangles]
     normals = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
-    groups = surface.face_ids if surface.face_names else _parallel_groups(normals)
-    _, group = np.unique(groups, return_inverse=True)
+    _, group = np.unique(surface.face_ids, return_inverse=True)
     areas = np.bincount(group, np.linalg.norm(normals, axis=1))
     found: list[tuple[float, FloatArray]] = []
     for k in np.argsort(-areas, kind="stable")[:_MOST_FACES]:
@@ -36,21 +32,8 @@ def candidates(surface: Solid, limit: int = 4) -> FloatArray:
     return np.array([direction for _, direction in found[:limit]], np.float64).reshape(-1, 3)
 
 
-def _parallel_groups(normals: FloatArray) -> npt.NDArray[Any]:
-    """Number the triangles of a bare mesh by their normal, up to sign."""
-    size = np.linalg.norm(normals, axis=1, keepdims=True)
-    unit = normals / np.where(size > 0, size, 1.0)
-    first = np.take_along_axis(unit, np.argmax(np.abs(unit), axis=1)[:, None], axis=1)
-    rounded = np.round(unit * np.where(first < 0, -1, 1) / _PARALLEL)
-    _, groups = np.unique(rounded, axis=0, return_inverse=True)
-    areas = np.bincount(groups.reshape(-1), weights=size[:, 0])
-    rank = np.argsort(np.argsort(-areas, kind="stable"), kind="stable")[groups.reshape(-1)]
-    # The small groups of a round wall propose nothing: all but the largest become one.
-    return np.minimum(rank, 16)
-
-
 def _direction(normals: FloatArray) -> FloatArray | None:
-    values, vectors = np.linalg.eigh(normals.T @ normals)
+    values, vectors = np.linalg.eigh(np.einsum("ni,nj->ij", normals, normals))
     if values[2] <= 0:
         return None
     flat, straight = values[1] <= _FLAT * values[2], values[0] <= _FLAT * values[2]

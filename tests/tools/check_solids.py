@@ -10,6 +10,7 @@ from typing import Any
 
 import numpy as np
 import numpy.typing as npt
+from crossing_edges import edges_cross
 from exact_cells import NotAPartition, Point, canonical, verify_partition
 from exact_tets import verify_tets
 from random_solids import Surface
@@ -23,6 +24,16 @@ class Unfit(Exception):
 
 class Repaired(AssertionError):
     """The result is right, but only a second attempt of the kernel gave it."""
+
+
+def excused(surface: Surface, attempt: str) -> bool:
+    """Whether the first attempt could not do better.
+
+    Edges that cross in their middles are beyond types 1 to 3: some directions see them, others
+    don't. Steiner points that compaction did not take away may be too close for doubles.
+    """
+    raw = ", not compacted" in attempt and "the finished mesh is wrong" in attempt
+    return raw or edges_cross(surface)
 
 
 def validated(surface: Surface) -> dict[str, Any]:
@@ -103,9 +114,10 @@ def check_tets(surface: Surface, options: dict[str, Any]) -> dict[str, float]:
 
 
 def check_tets_at_once(surface: Surface, options: dict[str, Any]) -> dict[str, float]:
-    """Like `check_tets`, but raises Repaired when the kernel's first attempt failed."""
+    """Like `check_tets`, but raises Repaired when an attempt failed that should not have."""
     counts, attempts = _check_tets(surface, options)
-    if attempts:
+    counts["repaired"] = len(attempts)
+    if not all(excused(surface, attempt) for attempt in attempts):
         raise Repaired("; ".join(attempts))
     return counts
 

@@ -17,8 +17,11 @@ def test_an_upright_part_proposes_nothing() -> None:
 def test_a_turned_part_proposes_its_own_axes() -> None:
     turn = shapes.rotation(3)
     shape = shapes.cube(2)
-    flat = Solid((shape.vertices * [3, 2, 1]) @ turn.T, shape.triangles)
-    found = candidates(flat)
+    corners = shape.vertices[shape.triangles]
+    normals = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
+    _, faces = np.unique(normals, axis=0, return_inverse=True)
+    vertices = (shape.vertices * [3, 2, 1]) @ turn.T
+    found = candidates(Solid(vertices, shape.triangles, faces.reshape(-1), tuple("ABCDEF")))
     assert found.shape == (3, 3)
     for k, axis in enumerate((2, 1, 0)):  # by area: 6 x 4, 6 x 2, 4 x 2
         assert abs(found[k] @ turn[:, axis]) == pytest.approx(1.0, abs=1e-12)

@@ -3,6 +3,7 @@
 #include "tetra/assemble/cells_of_fences.h"
 
 #include <algorithm>
+#include <cmath>
 #include <exception>
 #include <optional>
 
@@ -81,7 +82,7 @@ Framed choose(GridSolid&& solid, bool in_haste, Progress& progress) {
     std::vector<DirectionTrial> trials;
     const std::vector<int> owners(solid.triangles.size(), 0);
     Framed result{std::move(solid), {}};
-    result.frames = choose_frames(result.solid, owners, {}, trials, progress);
+    result.frames = choose_frames(result.solid, owners, {}, HUGE_VAL, trials, progress);
     const double most = kCostTried * result.frames.front().cost;
     if (in_haste)
         std::erase_if(result.frames, [&](const FenceDirection& f) { return f.cost > most; });

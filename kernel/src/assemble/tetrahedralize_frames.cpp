@@ -51,7 +51,7 @@ HPoint from_frame(const FenceDirection& frame, const HPoint& point) {
 }
 
 std::vector<FenceDirection> choose_frames(const GridSolid& solid, const std::vector<int>& owners,
-                                          const TetOptions& options,
+                                          const TetOptions& options, double counted_to,
                                           std::vector<DirectionTrial>& trials, Progress& progress) {
     std::vector<FenceDirection> all;
     if (options.direction) {
@@ -63,6 +63,7 @@ std::vector<FenceDirection> choose_frames(const GridSolid& solid, const std::vec
         DirectionOptions rating;
         rating.candidates = options.candidates;
         rating.largest_entry = kLargestEntry;
+        rating.counted_to = counted_to;
         try {
             all = fence_directions(solid.points, solid.triangles, owners, rating, progress);
         } catch (const InvalidSolid& error) {

@@ -7,6 +7,8 @@
 namespace tetra {
 namespace {
 
+constexpr int kSampled = 400;  // edges
+
 PullOff chosen(PullOff state, const char* name, SolidReport& report) {
     report.pulled = name;
     report.pull = state.statistics;
@@ -36,14 +38,19 @@ PullOff choose_pull(const std::vector<Vec3i>& framed, const GridSolid& solid,
     if (policy == PullPolicy::on || all.triangles.empty())
         return chosen(std::move(all), "all", report);
     if (all.cups.empty()) return chosen(std::move(none), "none", report);
-    PullOff some = pull_off(framed, solid.triangles, owners, {25, PullMode::crossings}, progress);
-    const std::int64_t k_none = some.crossings_before, k_some = some.crossings_after;
-    const std::int64_t k_all =
-        projected_crossings(framed, all.triangles, all.owners, progress, std::min(k_none, k_some));
-    report.crossings = {{"none", k_none}, {"crossings", k_some}, {"all", k_all}};
+    const auto crossings = [&](const PullOff& state) {
+        return projected_crossings(framed, state.triangles, state.owners, progress, kSampled);
+    };
+    const std::int64_t k_none = crossings(none);
+    report.crossings = {{"none", k_none}};
     // A tie goes to the least pulling: without fewer crossings it only adds tetrahedra.
-    if (k_all < std::min(k_none, k_some)) return chosen(std::move(all), "all", report);
-    if (k_some < k_none) return chosen(std::move(some), "crossings", report);
+    if (k_none == 0) return chosen(std::move(none), "none", report);
+    const std::int64_t k_all = crossings(all);
+    report.crossings.emplace_back("all", k_all);
+    if (k_all < k_none) return chosen(std::move(all), "all", report);
+    PullOff some = pull_off(framed, solid.triangles, owners, {25, PullMode::crossings}, progress);
+    report.crossings.emplace_back("crossings", some.crossings_after);
+    if (some.crossings_after < k_none) return chosen(std::move(some), "crossings", report);
     return chosen(std::move(none), "none", report);
 }
 

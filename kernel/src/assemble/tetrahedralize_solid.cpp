@@ -86,7 +86,8 @@ class SolidWorker {
             frames_.front().name = "none needed";
         } else {
             const StageClock::Scope scope(clock_, "direction");
-            frames_ = choose_frames(input_.grid, owners_, options_, report_.directions, progress_);
+            frames_ =
+                choose_frames(input_.grid, owners_, options_, 1, report_.directions, progress_);
         }
     }
 
@@ -128,7 +129,8 @@ class SolidWorker {
 
     std::vector<Attempt> further_attempts() {
         if (consumed_)
-            frames_ = choose_frames(input_.grid, owners_, options_, report_.directions, progress_);
+            frames_ =
+                choose_frames(input_.grid, owners_, options_, 1, report_.directions, progress_);
         std::vector<Attempt> list;
         const CompactLevel level = options_.compact.level;
         if (level != CompactLevel::none)

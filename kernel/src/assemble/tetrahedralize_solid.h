@@ -32,9 +32,10 @@ class StageClock {
 std::vector<Vec3i> to_frame(const FenceDirection& frame, const std::vector<Vec3i>& points);
 HPoint from_frame(const FenceDirection& frame, const HPoint& point);
 
-// Directions worth trying on this grid, best first; `trials` tells how they were rated.
+// Directions worth trying on this grid, best first; `trials` tells how they were rated, and
+// `counted_to` (DirectionOptions) how closely those behind the best are.
 std::vector<FenceDirection> choose_frames(const GridSolid& solid, const std::vector<int>& owners,
-                                          const TetOptions& options,
+                                          const TetOptions& options, double counted_to,
                                           std::vector<DirectionTrial>& trials, Progress& progress);
 
 // The state of pulling that A1 prefers in a frame, or what the policy demands. `everything` is the

@@ -86,15 +86,15 @@ std::array<Vec3i, 3> unimodular_rows(const Vec3i& d) {
     return {u, v, m};
 }
 
-// Base edges of the walls along every so manieth line, scaled up.
-double counted(fence::Plan& plan, int sampled_lines, Progress& progress) {
+// Base edges of the walls along every so manieth line, scaled up; the count ends above `most`.
+double counted(fence::Plan& plan, int sampled_lines, double most, Progress& progress) {
     const auto lines = static_cast<int>(plan.lines.size());
     if (lines == 0) return 0;
-    const int stride = std::max(1, lines / std::max(1, sampled_lines));
-    const fence::Walls walls = fence::sweep_walls(plan, progress, stride);
-    const auto ends = std::ranges::count_if(walls.points, &fence::WallPoint::active);
-    const auto sides = static_cast<double>(ends) - static_cast<double>(walls.runs.size());
-    return sides * lines / ((lines + stride - 1) / stride);
+    fence::WallSample sample;
+    sample.stride = std::max(1, lines / std::max(1, sampled_lines));
+    const double scale = static_cast<double>(lines) / ((lines + sample.stride - 1) / sample.stride);
+    if (most < 1e15) sample.enough = static_cast<std::int64_t>(most / scale) + 1;
+    return scale * static_cast<double>(fence::sweep_walls(plan, progress, sample).sides);
 }
 
 class Rater {
@@ -219,7 +219,10 @@ class Rater {
             input.triangles = triangles_;
             input.owner = owner_;
             fence::Plan plan = fence::make_plan(input);
-            d.cost = counted(plan, options_.sampled_lines, progress_);
+            const double handicap = nonzeros(d.direction) == 1 ? 1 : kObliqueHandicap;
+            const double most = options_.counted_to * best_ / handicap;
+            d.cost = counted(plan, options_.sampled_lines, most, progress_);
+            if (d.cost > most) d.note += ", or more";
             best_ = std::min(best_, weight(d));
         } catch (const InvalidSolid& error) {
             d.refused = true;
@@ -298,7 +301,7 @@ double count_walls(const std::vector<Vec3i>& points, const std::vector<Triangle>
     input.triangles = triangles;
     input.owner = owner;
     fence::Plan plan = fence::make_plan(input);
-    return counted(plan, sampled_lines, progress);
+    return counted(plan, sampled_lines, HUGE_VAL, progress);
 }
 
 std::vector<FenceDirection> fence_directions(const std::vector<Vec3i>& points,

@@ -154,20 +154,22 @@ bool is_vertical(const PullSurface& surface, const VertexPair& edge) {
 
 std::int64_t projected_crossings(const std::vector<Vec3i>& points,
                                  const std::vector<Triangle>& triangles,
-                                 const std::vector<int>& owners, Progress& progress,
-                                 std::int64_t enough) {
+                                 const std::vector<int>& owners, Progress& progress, int sampled) {
     const PullSurface surface(points, triangles, owners);
-    const std::vector<VertexPair> edges = sharp_edges(surface);
+    std::vector<VertexPair> edges = sharp_edges(surface);
+    std::erase_if(edges, [&](const VertexPair& e) { return is_vertical(surface, e); });
     ProjectedEdges seen(points, edges.size());
-    std::int64_t count = 0;
-    for (std::size_t i = 0; i < edges.size() && count < enough; ++i) {
-        if (is_vertical(surface, edges[i])) continue;
+    for (const VertexPair& e : edges) seen.insert(e);
+    const std::size_t stride = edges.size() / index(std::max(1, sampled)) + 1;
+    std::int64_t ends = 0, asked = 0;
+    for (std::size_t i = 0; i < edges.size(); i += stride, ++asked) {
         if (i % 16 == 0)
             progress.poll("crossings", static_cast<double>(i) / static_cast<double>(edges.size()));
-        count += seen.crossings(edges[i]);
-        seen.insert(edges[i]);
+        ends += seen.crossings(edges[i]);
     }
-    return count;
+    if (stride == 1) return ends / 2;
+    return std::llround(0.5 * static_cast<double>(ends) * static_cast<double>(edges.size()) /
+                        static_cast<double>(asked));
 }
 
 }  // namespace tetra

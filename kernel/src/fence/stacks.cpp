@@ -70,11 +70,17 @@ void Stabber::facets_beside(const Line& line, const Vec3i& point, std::vector<in
 }
 
 void Stack::toggle(int facet) {
-    const auto place = std::find(toggled_.begin(), toggled_.end(), facet);
+    const auto place = std::ranges::find(toggled_, facet, &Toggled::facet);
     if (place == toggled_.end())
-        toggled_.push_back(facet);
+        toggled_.push_back({facet, true});
     else
-        toggled_.erase(place);
+        place->odd = !place->odd;
+}
+
+bool Stack::changed() const {
+    return std::ranges::any_of(toggled_, [&](const Toggled& t) {
+        return t.odd || std::ranges::find(facets_, t.facet) != facets_.end();
+    });
 }
 
 Stack::Entry Stack::entry(int facet, const Strip& strip) const {
@@ -124,13 +130,14 @@ void Stack::sort_all(const Strip& strip) {
 }
 
 void Stack::move_toggled(const Strip& strip) {
-    std::erase_if(toggled_, [&](int facet) {
-        const auto place = std::find(facets_.begin(), facets_.end(), facet);
-        if (place == facets_.end()) return false;
-        facets_.erase(place);
-        return true;
+    // One that leaves and enters in the same point may have passed others that end in it.
+    std::erase_if(toggled_, [&](const Toggled& t) {
+        const auto place = std::ranges::find(facets_, t.facet);
+        const bool present = place != facets_.end();
+        if (present) facets_.erase(place);
+        return present == t.odd;
     });
-    for (const int facet : toggled_) {
+    for (const auto& [facet, odd] : toggled_) {
         const Entry fresh = entry(facet, strip);
         const auto place = std::partition_point(facets_.begin(), facets_.end(), [&](int other) {
             return below(entry(other, strip), fresh, strip);
@@ -138,7 +145,7 @@ void Stack::move_toggled(const Strip& strip) {
         facets_.insert(place, facet);
     }
     check_alternation();
-    for (const int facet : toggled_) {
+    for (const auto& [facet, odd] : toggled_) {
         const auto i = static_cast<std::size_t>(std::find(facets_.begin(), facets_.end(), facet) -
                                                 facets_.begin());
         // The space above a ceiling, or below a floor.

@@ -33,9 +33,9 @@ class Stack {
     int floor(int pair) const { return at(facets_, 2 * pair); }
     int ceiling(int pair) const { return at(facets_, 2 * pair + 1); }
 
-    // The facet leaves or enters at the next arrange(); twice cancels.
+    // The facet leaves or enters at the next arrange(); twice: leaves and enters again.
     void toggle(int facet);
-    bool changed() const { return !toggled_.empty(); }
+    bool changed() const;
 
     // Where a strip lies: between two plan points of the line. `edge_of` names for each facet an
     // edge that bounds it over this stretch, or is negative.
@@ -50,6 +50,10 @@ class Stack {
     void arrange(const Strip& strip, bool all);
 
   private:
+    struct Toggled {
+        int facet;
+        bool odd;
+    };
     struct Entry {
         int facet;
         int edge;
@@ -65,7 +69,8 @@ class Stack {
 
     const Plan& plan_;
     bool left_;
-    std::vector<int> facets_, toggled_;
+    std::vector<int> facets_;
+    std::vector<Toggled> toggled_;
     std::vector<Entry> entries_;
 };
 

@@ -37,13 +37,19 @@ class Sweep {
         walls_.chains.offset.push_back(0);  // chain 0 is empty
     }
 
-    Walls run(Progress& progress, int stride) {
+    Walls run(Progress& progress, const WallSample& sample) {
         const int n = static_cast<int>(plan_.lines.size());
-        for (int l = 0; l < n; l += stride) {
+        for (int l = 0; l < n && sides_ < sample.enough; l += sample.stride) {
             progress.poll("fences", 0.5 * l / n);
+            const std::size_t points = walls_.points.size(), runs = walls_.runs.size();
             sweep_line(l);
+            const auto ends =
+                std::count_if(walls_.points.begin() + static_cast<long>(points),
+                              walls_.points.end(), [](const WallPoint& w) { return w.active; });
+            sides_ += ends - static_cast<std::int64_t>(walls_.runs.size() - runs);
         }
         group_by_run();
+        walls_.sides = sides_;
         return std::move(walls_);
     }
 
@@ -325,14 +331,15 @@ class Sweep {
     std::vector<int> edge_of_;  // per facet, while the stacks are sorted
     std::vector<int> ceiling_of_, ceiling_stamp_;
     int stamp_ = 0;
+    std::int64_t sides_ = 0;
     int line_ = -1;
     int first_point_ = -1;
 };
 
 }  // namespace
 
-Walls sweep_walls(Plan& plan, Progress& progress, int stride) {
-    return Sweep(plan).run(progress, stride);
+Walls sweep_walls(Plan& plan, Progress& progress, const WallSample& sample) {
+    return Sweep(plan).run(progress, sample);
 }
 
 }  // namespace tetra::fence

@@ -2,6 +2,9 @@
 // Walls of cells along the lines of the plan: what the sweep of rules R2 to R6 finds.
 #pragma once
 
+#include <cstdint>
+#include <limits>
+
 #include "plan.h"
 
 namespace tetra::fence {
@@ -28,9 +31,14 @@ struct Walls {
     Lists chains;                   // of sharp edges; chain 0 is empty
     // Sharp edges through plan points, repeated ones included: what carries a mark.
     std::vector<int> edge_at, edge_at_point;
+    std::int64_t sides = 0;  // of all walls, between neighbouring active points of their runs
 };
 
-// Sweeps every stride-th line.
-Walls sweep_walls(Plan& plan, Progress& progress, int stride = 1);
+struct WallSample {
+    int stride = 1;  // every so manieth line is swept
+    std::int64_t enough = std::numeric_limits<std::int64_t>::max();  // sides that end the sweep
+};
+
+Walls sweep_walls(Plan& plan, Progress& progress, const WallSample& sample = {});
 
 }  // namespace tetra::fence

@@ -90,12 +90,27 @@ class Finder {
                 side_of(t, vertex(other, 2))};
     }
 
+    // Most pairs are neighbours, and b meets the plane of a in what they share alone: a corner, or
+    // a side at which the sheets were made not to cross.
+    bool meets_in_own_corners(int a, int b, const Signs& sides) const {
+        if (!same_solid(a, b)) return false;
+        int most = 0, least = 0;
+        for (int i = 0; i < 3; ++i) {
+            const int side = sides[static_cast<std::size_t>(i)];
+            if (side == 0 && !has_vertex(a, vertex(b, i))) return false;
+            most = std::max(most, side);
+            least = std::min(least, side);
+        }
+        return most - least == 1;
+    }
+
     void report(int a, int b, bool flat) {
         found_.pairs.push_back({std::min(a, b), std::max(a, b), flat});
     }
 
     void test(int a, int b) {
         const Signs sb = sides_of(a, b);
+        if (meets_in_own_corners(a, b, sb)) return;
         if ((sb[0] > 0 && sb[1] > 0 && sb[2] > 0) || (sb[0] < 0 && sb[1] < 0 && sb[2] < 0)) return;
         if (sb[0] == 0 && sb[1] == 0 && sb[2] == 0) return test_coplanar(a, b);
         const Signs sa = sides_of(b, a);

@@ -20,7 +20,7 @@ namespace tetra {
 // chazelle_palios: pull-off and fences; bajaj_dey: the convex cells of notch cutting, overlaid.
 enum class TetMethod { chazelle_palios, bajaj_dey };
 
-// automatic: PULLOFF A1, the state with fewest crossings; on: the paper's; off: none.
+// automatic: PULLOFF A1 by estimates (decisions/0009); on: the paper's; off: none.
 enum class PullPolicy { automatic, on, off };
 
 // `direction`, `candidates` and `pull_off` are of chazelle_palios only.

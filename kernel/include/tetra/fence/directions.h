@@ -19,7 +19,8 @@ struct FenceDirection {
     std::array<Vec3i, 3> matrix{{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}};
     std::array<Vec3i, 3> inverse{{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}};
     int growth = 1;  // largest sum of magnitudes in a row of the matrix
-    // Walls of the fence-off seen this way, estimated on big solids; -1 = not rated.
+    // Walls of the fence-off seen this way, estimated on big solids; -1 = not rated. Counting ends
+    // where a direction is out of the running: there may be more of them then (see note).
     double cost = -1;
     bool refused = false;  // the solid can't be fenced this way
     std::string note;      // where it comes from, or why it was not rated
@@ -27,13 +28,14 @@ struct FenceDirection {
 
 struct DirectionOptions {
     std::vector<Vec3d> candidates;  // e.g. axes of cylinders; any length
-    int from_facets = 2;            // normals of the largest planar faces to be added
+    int from_facets = 4;            // normals of the largest planar faces to be added
     int from_edges = 2;             // commonest exact directions of sharp edges to be added
     int largest_entry = 7;          // of integer directions; a vector is taken to the nearest one
     int sampled_lines = 100;        // plan lines swept to rate one direction
     // Walls per triangle: the first axis with fewer ends the search; other directions than the axes
     // are rated only when no axis has fewer.
     double good = 2;
+    double counted_to = 1;  // times the best cost so far, before a count ends
 };
 
 // The map for one primitive or scaled integer vector, unrated.

@@ -74,12 +74,12 @@ PullOff pull_off(const std::vector<Vec3i>& points, const std::vector<Triangle>& 
                  const std::vector<int>& owners, const PullOptions& options, Progress& progress);
 
 // Number of pairs of sharp edges whose projections along z cross properly (PULLOFF A1). Sharp:
-// not between two coplanar triangles of one owner; vertical edges don't count. Counting ends when
-// there are `enough`.
+// not between two coplanar triangles of one owner; vertical edges don't count. With more edges than
+// `sampled` the number is estimated from so many of them.
 std::int64_t projected_crossings(const std::vector<Vec3i>& points,
                                  const std::vector<Triangle>& triangles,
                                  const std::vector<int>& owners, Progress& progress,
-                                 std::int64_t enough = std::numeric_limits<std::int64_t>::max());
+                                 int sampled = std::numeric_limits<int>::max());
 
 // One id per triangle: two triangles have the same one when they are joined over edges of exactly
 // two coplanar, equally oriented triangles of one `face` (empty = all 0) and one `solid` (same).
