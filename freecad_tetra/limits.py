@@ -4,7 +4,6 @@
 from __future__ import annotations
 
 import contextlib
-from collections.abc import Iterator
 from dataclasses import replace
 from typing import Any
 
@@ -16,8 +15,8 @@ from freecad_tetra.export import pieces
 from freecad_tetra.kernel import Progress, Validation
 from freecad_tetra.model import ConvexCells
 
-# A partition of more pieces is not tried beside the one at hand: merging takes seconds.
-MOST_TRIED = 3000
+# Of partitions with more pieces only the one with the fewest is merged, as that takes seconds.
+MOST_TRIED = 1000
 
 
 def limit(
@@ -88,8 +87,9 @@ def least_error(
     """Limit cells and, when some must be merged, other partitions of the solid too.
 
     Merging can only join what a partition has cut apart, and no way of cutting suits all parts:
-    of the cells as given, those of the other method and tetrahedra, the one is returned whose
-    hulls stray least. ``report.details["limits"]["tried"]`` has the error of each.
+    of the cells as given, those of the other method and, for small solids, tetrahedra, the one is
+    returned whose hulls stray least; of large partitions only the smallest is tried.
+    ``report.details["limits"]["tried"]`` has the error of each.
 
     Parameters
     ----------
@@ -98,13 +98,17 @@ def least_error(
     cells, max_cells, max_vertices, progress
         As of `limit`.
     """
-    best = limit(cells, max_cells, max_vertices, progress)
-    tried = {cells.report.method: _error(best)}
+    found = {cells.report.method: cells}
     if max_cells is not None and len(cells) > max_cells:
-        for name, other in _others(solid, cells, progress):
-            found = limit(other, max_cells, max_vertices, progress)
-            tried[name] = _error(found)
-            best = min(best, found, key=_error)
+        found |= _others(solid, cells, progress)
+    fewest = min(map(len, found.values()))
+    limited = {
+        name: limit(other, max_cells, max_vertices, progress)
+        for name, other in found.items()
+        if len(other) <= MOST_TRIED or len(other) == fewest
+    }
+    tried = {name: _error(other) for name, other in limited.items()}
+    best = min(limited.values(), key=_error)
     told = {**best.report.details["limits"], "tried": tried}
     details = {**best.report.details, "limits": told}
     return replace(best, report=replace(best.report, details=details))
@@ -116,18 +120,17 @@ def _error(cells: ConvexCells) -> float:
 
 def _others(
     solid: Validation, cells: ConvexCells, progress: Progress | None
-) -> Iterator[tuple[str, ConvexCells]]:
-    """Yield the other partitions that can be had and are not too large."""
+) -> dict[str, ConvexCells]:
+    """Return the other partitions that can be had."""
+    found: dict[str, ConvexCells] = {}
     for method in ("bajaj-dey", "fences"):
-        if method == cells.report.method or len(cells) > MOST_TRIED:
-            continue
         with contextlib.suppress(VerificationFailed, InvalidSolid):
-            yield method, kernel.convex_cells(solid, {"method": method}, progress)
+            if method != cells.report.method:
+                found[method] = kernel.convex_cells(solid, {"method": method}, progress)
     with contextlib.suppress(VerificationFailed):
         if len(cells) <= MOST_TRIED / 3:
-            mesh = kernel.tetrahedralize(solid, {}, progress)
-            if len(mesh) <= MOST_TRIED:
-                yield "tetrahedra", pieces.as_cells(mesh)
+            found["tetrahedra"] = pieces.as_cells(kernel.tetrahedralize(solid, {}, progress))
+    return found
 
 
 def _gathered(cells: ConvexCells, found: dict[str, Any]) -> ConvexCells:

@@ -111,6 +111,34 @@ def test_solids_are_never_joined() -> None:
         convex_cells((points, triangles), max_cells=1)
 
 
+def strips_of_an_arc(count: int) -> ConvexCells:
+    """A quarter of a ring of radii 8 and 10, height 2, in radial strips."""
+    angles = np.linspace(0, np.pi / 2, count + 1)
+    points = [(r * np.cos(a), r * np.sin(a), z) for a in angles for r in (8, 10) for z in (0, 2)]
+    loops: list[list[int]] = []
+    source: list[int] = []
+    for i in range(0, 4 * count, 4):
+        loops += [
+            [i, i + 1, i + 5, i + 4], [i + 2, i + 6, i + 7, i + 3], [i, i + 4, i + 6, i + 2],
+            [i + 1, i + 3, i + 7, i + 5], [i, i + 2, i + 3, i + 1], [i + 4, i + 5, i + 7, i + 6],
+        ]  # fmt: skip
+        source += [0, 1, 2, 3, 4 if i == 0 else -1, 5 if i == 4 * count - 4 else -1]
+    return ConvexCells(
+        np.array(points), np.arange(len(loops) + 1) * 4, np.concatenate(loops),
+        np.arange(count + 1) * 6, source, np.full(len(loops), -1), np.zeros(count, int),
+        np.arange(len(points)),
+    )  # fmt: skip
+
+
+def test_an_arc_is_divided_into_equal_parts() -> None:
+    """Joining the nearest two again and again makes parts of two and four strips."""
+    cells = limit(strips_of_an_arc(12), max_cells=4)
+    assert len(cells) == 4
+    # From the chord of three strips to the middle of the second.
+    reach = 8 * (np.cos(np.pi / 48) - np.cos(np.pi / 16))
+    assert told(cells)["hull_error_found"] == pytest.approx(reach, rel=0.02)
+
+
 def test_equal_input_gives_equal_hulls() -> None:
     part = Path(__file__).parents[2] / "resources/parts/bracket.step"
     first, second = (convex_cells(part, max_cells=12, max_vertices=16) for _ in range(2))

@@ -24,11 +24,11 @@ double hull_error(std::span<const Vec3d> points, std::span<const Triangle> trian
                   const PartDistance& distance, double& found, Progress& progress) {
     std::priority_queue<Candidate> queue;
     const auto enter = [&](const Corners& corners) {
-        if (distance.in_one_cell(corners)) return;
-        const Ball ball = ball_around(corners);
-        const double middle = distance(ball.middle);
-        found = std::max(found, middle);
-        if (middle + ball.radius > kSlack * found) queue.push({middle + ball.radius, corners});
+        const std::optional<double> middle = distance.of_middle(corners);
+        if (!middle) return;
+        found = std::max(found, *middle);
+        const double bound = *middle + ball_around(corners).radius;
+        if (bound > kSlack * found) queue.push({bound, corners});
     };
     for (const Triangle& t : triangles) {
         Corners corners;

@@ -9,6 +9,7 @@
 #include "hull_error.h"
 #include "hull_planes.h"
 #include "merge_hulls.h"
+#include "shift_cells.h"
 
 namespace tetra {
 namespace {
@@ -50,9 +51,7 @@ class Limiter {
     LimitedCells run() {
         const bool too_many =
             limits_.max_cells > 0 && cells_.size() > static_cast<std::size_t>(limits_.max_cells);
-        const std::vector<MergedHull> hulls =
-            too_many ? merge_hulls(part_, cells_, distance_, limits_.max_cells, progress_)
-                     : unmerged(cells_);
+        const std::vector<MergedHull> hulls = too_many ? merged() : unmerged(cells_);
         for (const MergedHull& hull : hulls) add(hull);
         if (!changed_.empty()) measure();
         return std::move(result_);
@@ -72,6 +71,12 @@ class Limiter {
     std::vector<std::vector<int>> cells_;
     std::vector<Changed> changed_;
     LimitedCells result_;
+
+    std::vector<MergedHull> merged() {
+        return shift_cells(part_, cells_, distance_,
+                           merge_hulls(part_, cells_, distance_, limits_.max_cells, progress_),
+                           progress_);
+    }
 
     double cell_volume6(int c) const {
         return volume6(part_.points,

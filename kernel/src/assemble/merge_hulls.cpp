@@ -3,6 +3,7 @@
 #include "merge_hulls.h"
 
 #include <algorithm>
+#include <cmath>
 #include <queue>
 #include <set>
 #include <tuple>
@@ -11,8 +12,6 @@
 
 namespace tetra {
 namespace {
-
-constexpr int kDivisions = 2;  // of a bridging facet: at most 21 samples
 
 std::size_t at(int i) { return static_cast<std::size_t>(i); }
 
@@ -81,29 +80,12 @@ class Merger {
     std::vector<char> alive_;
     std::vector<char> owner_;  // of each point while a pair is judged: 1, 2 or both bits
     std::priority_queue<Pair, std::vector<Pair>, std::greater<>> heap_;
-    std::vector<Vec3d> local_;
 
     const Vec3d& point(int i) const { return points_[at(i)]; }
 
-    // The hull of points given by increasing ids; flat ones keep all points.
-    MergedHull hull_of(const std::vector<int>& ids) {
-        local_.clear();
-        for (const int i : ids) local_.push_back(point(i));
-        MergedHull hull;
-        hull.triangles = convex_hull(local_);
-        hull.volume6 = volume6(local_, hull.triangles);
-        for (Triangle& t : hull.triangles)
-            for (int& corner : t) {
-                corner = ids[at(corner)];
-                hull.points.push_back(corner);
-            }
-        std::sort(hull.points.begin(), hull.points.end());
-        hull.points.erase(std::unique(hull.points.begin(), hull.points.end()), hull.points.end());
-        if (hull.triangles.empty()) hull.points = ids;
-        return hull;
-    }
+    MergedHull hull_of(const std::vector<int>& ids) const { return hull_of_points(points_, ids); }
 
-    MergedHull hull_of_both(int a, int b) {
+    MergedHull hull_of_both(int a, int b) const {
         std::vector<int> both;
         std::set_union(hulls_[at(a)].points.begin(), hulls_[at(a)].points.end(),
                        hulls_[at(b)].points.begin(), hulls_[at(b)].points.end(),
@@ -142,18 +124,30 @@ class Merger {
         const MergedHull both = hull_of_both(pair.a, pair.b);
         pair.growth6 = both.volume6 - hulls_[at(pair.a)].volume6 - hulls_[at(pair.b)].volume6;
         pair.known = static_cast<Known>(static_cast<int>(pair.known) + 1);
-        std::vector<Corners> bridging = bridging_facets(both, pair);
-        if (pair.known == Known::largest && !bridging.empty()) {
-            const auto radius = [](const Corners& c) { return ball_around(c).radius; };
-            bridging = {*std::ranges::max_element(bridging, {}, radius)};
+        const std::vector<Corners> bridging = bridging_facets(both, pair);
+        if (pair.known == Known::all) {
+            // What has been merged strays as far as `level_` already.
+            const double stray =
+                farthest_of(distance_, bridging, std::max(pair.stray, level_), HUGE_VAL);
+            if (stray > level_) pair.stray = std::max(pair.stray, stray);
+        } else if (!bridging.empty()) {
+            look(bridging, pair);
         }
-        const int divisions = pair.known == Known::all ? kDivisions : 0;
-        for (const Corners& corners : bridging)
-            if (ball_around(corners).radius >
-                std::max(pair.stray, level_))  // corners are on the part
-                look(corners, divisions, pair.stray);
         if (pair.stray <= distance_.touching()) pair.stray = 0;
         heap_.push(pair);
+    }
+
+    // Raises the stray to the distances of the middles of some facets.
+    void look(const std::vector<Corners>& bridging, Pair& pair) const {
+        const auto radius = [](const Corners& c) { return ball_around(c).radius; };
+        const auto see = [&](const Corners& c) {
+            if (radius(c) > std::max(pair.stray, level_) && !distance_.in_one_cell(c))
+                pair.stray = std::max(pair.stray, distance_(ball_around(c).middle));
+        };
+        if (pair.known == Known::largest)
+            see(*std::ranges::max_element(bridging, {}, radius));
+        else
+            std::ranges::for_each(bridging, see);
     }
 
     // Facets of the common hull that have corners of both hulls' own.
@@ -167,17 +161,6 @@ class Merger {
         for (const int k : {pair.a, pair.b})
             for (const int i : hulls_[at(k)].points) owner_[at(i)] = 0;
         return bridging;
-    }
-
-    // Raises `stray` to the distances of samples of a triangle that may be farther away.
-    void look(const Corners& corners, int divisions, double& stray) const {
-        const Ball ball = ball_around(corners);
-        if (distance_.in_one_cell(corners)) return;
-        const double middle = distance_(ball.middle);
-        stray = std::max(stray, middle);
-        // What has been merged strays as far as `level_` already.
-        if (divisions == 0 || middle + ball.radius <= std::max(stray, level_)) return;
-        for (const Corners& quarter : quarters(corners)) look(quarter, divisions - 1, stray);
     }
 
     void merge(const Pair& pair_) {

@@ -4,19 +4,10 @@
 
 #include <vector>
 
-#include "part_distance.h"
+#include "hull_stray.h"
 #include "tetra/progress.h"
 
 namespace tetra {
-
-// The hull of some cells.
-struct MergedHull {
-    std::vector<int> cells;           // increasing
-    std::vector<int> points;          // ids of the hull's vertices, increasing
-    std::vector<Triangle> triangles;  // of the same ids; flat cells have none
-    double volume6 = 0;               // six times the hull's volume
-    double stray = 0;                 // how far its surface was seen to be from the part
-};
 
 // Merges the cells of a part, given as the increasing ids of their points, until at most `most`
 // are left. Greedy, by a heap over pairs: the two hulls of one solid whose common hull strays

@@ -39,6 +39,7 @@ std::vector<FloatBox> boxes_of_triangles(std::span<const Vec3d> points,
     return boxes;
 }
 
+constexpr double kCoarse = 1e-3;
 constexpr double kTouching = 1e-9;  // of the part's size
 
 double square(double x) { return x * x; }
@@ -126,7 +127,10 @@ PartDistance::PartDistance(const CellArrays& part)
             half_spaces(points_, fans(part, part.cell_offsets[c], part.cell_offsets[c + 1])));
     FloatBox box;
     for (const int i : part.facet_vertices) box.add(points_[at(i)]);
-    if (!part.facet_vertices.empty()) touching_ = kTouching * norm(minus(box.high, box.low));
+    if (part.facet_vertices.empty()) return;
+    const double diagonal = norm(minus(box.high, box.low));
+    touching_ = kTouching * diagonal;
+    coarse_ = kCoarse * diagonal;
 }
 
 bool PartDistance::inside(std::size_t cell, const Vec3d& p) const {
@@ -136,7 +140,10 @@ bool PartDistance::inside(std::size_t cell, const Vec3d& p) const {
 }
 
 double PartDistance::operator()(const Vec3d& p) const {
-    if (in_one_cell({p, p, p})) return 0;
+    return in_one_cell({p, p, p}) ? 0 : to_surface(p);
+}
+
+double PartDistance::to_surface(const Vec3d& p) const {
     double nearest2 = std::numeric_limits<double>::infinity();
     surface_.visit_near(p, nearest2, [&](int t) {
         const Triangle& s = skin_[at(t)];
@@ -147,15 +154,22 @@ double PartDistance::operator()(const Vec3d& p) const {
 }
 
 bool PartDistance::in_one_cell(const Corners& corners) const {
+    return !middle_unless_covered(corners, false).has_value();
+}
+
+std::optional<double> PartDistance::middle_unless_covered(const Corners& corners,
+                                                          bool measured) const {
     double reach2 = touching_ * touching_;
-    bool found = false;
-    cells_.visit_near(ball_around(corners).middle, reach2, [&](int c) {
-        const auto within = [&](const Vec3d& p) { return inside(at(c), p); };
-        if (found || !std::all_of(corners.begin(), corners.end(), within)) return;
-        found = true;
-        reach2 = -1;
+    bool covered = false, within = false;
+    const Vec3d middle = ball_around(corners).middle;
+    cells_.visit_near(middle, reach2, [&](int c) {
+        if (covered || !inside(at(c), middle)) return;
+        within = true;
+        covered = std::ranges::all_of(corners, [&](const Vec3d& p) { return inside(at(c), p); });
+        if (covered) reach2 = -1;
     });
-    return found;
+    if (covered) return std::nullopt;
+    return within || !measured ? 0 : to_surface(middle);
 }
 
 }  // namespace tetra

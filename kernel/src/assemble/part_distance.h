@@ -2,6 +2,7 @@
 // The distance from a point to a part that is given by its convex cells and its skin.
 #pragma once
 
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -50,20 +51,30 @@ class PartDistance {
     // Closer than this counts as inside: rounding has moved the cells' points by less.
     double touching() const { return touching_; }
 
+    // A thousandth of the diagonal: what is closer need not be told apart.
+    double coarse() const { return coarse_; }
+
     // 0 inside. O(log n) expected.
     double operator()(const Vec3d& p) const;
 
     // Whether one cell contains the triangle; then no point of it is away from the part.
     bool in_one_cell(const Corners& corners) const;
 
+    // The distance of its middle, or nothing when one cell contains the triangle.
+    std::optional<double> of_middle(const Corners& corners) const {
+        return middle_unless_covered(corners, true);
+    }
+
   private:
     std::span<const Vec3d> points_;
     std::vector<std::vector<HalfSpace>> halves_;  // per cell
     std::vector<Triangle> skin_;
     FloatTree cells_, surface_;
-    double touching_ = 0;
+    double touching_ = 0, coarse_ = 0;
 
     bool inside(std::size_t cell, const Vec3d& p) const;
+    double to_surface(const Vec3d& p) const;
+    std::optional<double> middle_unless_covered(const Corners& corners, bool measured) const;
 };
 
 }  // namespace tetra
