@@ -98,7 +98,7 @@ pictures:
 translations:
 	tools/translate.sh
 
-# Beside CGAL and TetGen, which are installed for this target only, and over growing solids.
+# Beside CGAL, TetGen and CoACD, which are installed for this target only, and over growing solids.
 benchmark: $(STAMPS)/install
 	tools/install_debian.sh libcgal-dev freecad calculix-ccx
 	cmake -S . -B build/benchmarks -G Ninja -DTETRA_BUILD_BENCHMARKS=ON
@@ -112,6 +112,7 @@ benchmark: $(STAMPS)/install
 	$(BIN)/python benchmarks/compound_vs_part.py -o benchmarks/results/compound_vs_part.json || failed=1; \
 	$(BIN)/python benchmarks/fem_convergence.py -o benchmarks/results/fem_convergence.json \
 	    --plot benchmarks/results/fem_convergence.png || failed=1; \
+	$(BIN)/python benchmarks/hulls_vs_coacd.py -o benchmarks/results/hulls_vs_coacd.json || failed=1; \
 	exit $$failed
 
 clean:
