@@ -6,7 +6,7 @@ SHELL := /bin/bash
 
 PYTHON ?= /usr/bin/python3
 JOBS ?= 2
-# Empty where Debian has no such package: then tests in FreeCAD mesh and load, and don't solve.
+# Empty where there is no such package: then tests in FreeCAD mesh and load, and do not solve.
 CALCULIX ?= calculix-ccx
 BIN := .venv/bin
 STAMPS := build/stamps

@@ -5,8 +5,8 @@
 # Usage, as root: bare_debian.sh [FOLDER [TARGET...]]   (default /tmp/bare demo test)
 # FOLDER keeps the unpacked Debian in FOLDER.base, so a second run starts from bare again at once.
 # DEBIAN_SUITE names another Debian than bookworm, DEBIAN_PACKAGES what FOLDER.base has from the
-# start. The machine's certificates and pip settings go along, for networks that have a proxy of
-# their own.
+# start, DEBIAN_SCRIPT what is run in it after that. The machine's certificates and pip settings go
+# along, for networks that have a proxy of their own.
 set -euo pipefail
 repository=$(cd "$(dirname "$0")/.." && pwd)
 root=${1:-/tmp/bare}
@@ -53,6 +53,10 @@ if [[ -n ${DEBIAN_PACKAGES:-} && ! -e $base/var/tetra_packages ]]; then
     # shellcheck disable=SC2086  # a list of names
     inside "$base" apt-get -q install -y --no-install-recommends $DEBIAN_PACKAGES
     inside "$base" apt-get clean
+    if [[ -n ${DEBIAN_SCRIPT:-} ]]; then
+        cp "$DEBIAN_SCRIPT" "$base/root/script"
+        inside "$base" /root/script
+    fi
     touch "$base/var/tetra_packages"
     unmount "$base"
 fi

@@ -87,7 +87,7 @@ class InAnalysis(InDocument):
         return solve.solve(self.analysis)
 
     def want_programs(self) -> None:
-        """End the test here where CALCULIX is empty: run_in_trixie has neither ccx nor mmg3d."""
+        """End the test where CALCULIX is empty: such a system has neither ccx nor mmg3d."""
         if os.environ.get("CALCULIX") == "":
             self.skipTest("this system has no CalculiX and no mmg3d")
 
