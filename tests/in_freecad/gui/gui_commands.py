@@ -74,14 +74,29 @@ class Commands(WindowTest):
         take_picture("commands")
 
     def trees(self) -> list[Any]:
-        """Return the trees that are seen, once the Tasks tab does not hide the document's."""
-        window = FreeCADGui.getMainWindow()
-        trees = window.findChildren(QtWidgets.QTreeWidget)
-        for tabs in window.findChildren(QtWidgets.QTabWidget):
-            for i in range(tabs.count()):
-                if tabs.tabText(i) == "Model":
-                    tabs.setCurrentIndex(i)
-        return [tree for tree in trees if tree.isVisible()]
+        """Return the trees that are seen; when none is, bring those to the front that are hidden.
+
+        The Tasks tab may hide the document's, or the window may have closed the panel of both.
+        """
+        trees = FreeCADGui.getMainWindow().findChildren(QtWidgets.QTreeWidget)
+        seen = [tree for tree in trees if tree.isVisible()]
+        for tree in trees if not seen else []:
+            inner, outer = tree, tree.parentWidget()
+            while outer is not None:
+                if isinstance(outer, QtWidgets.QStackedWidget):
+                    outer.setCurrentWidget(inner)
+                if isinstance(outer, QtWidgets.QTabWidget):
+                    outer.setCurrentIndex(max(0, outer.indexOf(self.page_of(outer, tree))))
+                if isinstance(outer, QtWidgets.QDockWidget):
+                    outer.show()
+                    outer.raise_()
+                inner, outer = outer, outer.parentWidget()
+        return seen
+
+    def page_of(self, tabs: Any, widget: Any) -> Any:
+        """Return the page of a tab widget that holds a widget."""
+        pages = (tabs.widget(i) for i in range(tabs.count()))
+        return next((page for page in pages if page.isAncestorOf(widget)), None)
 
     def context_menu(self) -> list[str]:
         """Return what a click with the right button on the object in the tree offers for it."""
